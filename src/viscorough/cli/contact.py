@@ -23,14 +23,14 @@ from viscorough.cli import files, messages, options, scans, surface_options
 @options.threads
 @options.progress
 def contact(
-    surfaces: Sequence[surface_options.Surface],
+    inputs: Sequence[surface_options.HeightsFile],
     output: Path,
     *,
     force: Sequence[Quantity] | None,
     depth: Sequence[Quantity] | None,
     tolerance: float,
     grid_error: bool,
-    jobs: int | None,
+    jobs: int,
     threads: int,
     progress: bool | None,
     **constants: Any,
@@ -56,7 +56,8 @@ def contact(
     in MPa. With --grid-error the table also has the estimated errors due to the spacing of the map, as for viscorough
     indent; this takes several times as long. A file that cannot be evaluated has a row with the reason in the column
     error; the other files are evaluated, and the exit code is 3. If you run the same command again, also after an
-    interrupt, unchanged files are not evaluated again.
+    interrupt, unchanged files are not evaluated again. For a thousand scans use the workflow instead (measured: in its
+    settings), which runs on clusters, and continues after errors.
 
     \b
     Example, a map in micrometres under F/G of 2 and of 3 um2, and a folder of scans:
@@ -71,22 +72,22 @@ def contact(
         how["grid_error"] = grid_error
         evaluate = functools.partial(scans.rows_for_options, **how, constants=constants, threads=threads)
         settings = how | constants | {"grid_error": grid_error or None}
-        scans.tabulate(surfaces, output, evaluate, settings=settings, jobs=jobs, threads=threads, progress=progress)
+        scans.tabulate(inputs, output, evaluate, settings=settings, jobs=jobs, progress=progress)
         return
     text = "--grid-error is for tables; -o TABLE.csv, or viscorough indent --forces, is allowed"
     options.require(not grid_error, text)
-    surface = scans.only_one(surfaces, output)
-    indenter = surface_options.read_indenter(surface, output)
+    file = scans.only_one(inputs, output)
+    indenter = surface_options.read_indenter(file, output)
     modulus, elastic_constants = options.elasticity(length_unit=indenter.length_unit, **constants)
 
     from viscorough.contact.one_contact import contact_at
     from viscorough.io.contact_files import contacts_to_content
-    from viscorough.io.load_tables import rows_of_contacts, text_of_row
+    from viscorough.io.contact_tables import rows_of_contacts, text_of_row
 
     with messages.progress_bar("viscorough contact", progress) as report:
         contacts: Any = contact_at(indenter, **how, shear_modulus=modulus, progress=report, threads=threads)
     content = contacts_to_content(contacts, indenter.heights)
-    files.write_output(content, output, **surface.attributes(indenter), **elastic_constants)
+    files.write_output(content, output, **file.attributes(indenter), **elastic_constants)
     rows, units = rows_of_contacts(contacts[-1:])
     text = text_of_row(rows[-1], units)
     messages.announce(output, text if len(contacts) == 1 else f"{len(contacts)} levels, the last at {text}")

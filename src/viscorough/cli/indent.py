@@ -18,7 +18,7 @@ from viscorough.cli import files, messages, options, scans, surface_options
 
 if TYPE_CHECKING:
     from viscorough.basics.types import Progress
-    from viscorough.io.load_tables import Rows
+    from viscorough.io.contact_tables import Rows
 
 
 @click.command(short_help="Loading curve of an indenter on an elastic half-space.")
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 @options.threads
 @options.progress
 def indent(
-    surfaces: Sequence[surface_options.Surface],
+    inputs: Sequence[surface_options.HeightsFile],
     output: Path,
     *,
     depths: Sequence[Quantity] | None,
@@ -50,7 +50,7 @@ def indent(
     until_fraction: float,
     until_force: Quantity | None,
     audit: bool,
-    jobs: int | None,
+    jobs: int,
     threads: int,
     progress: bool | None,
     **constants: Any,
@@ -112,19 +112,19 @@ def indent(
     _check_exclusive(settings, has_tolerance=source is not ParameterSource.DEFAULT, audit=audit)
     settings["tolerance"] = tolerance if error is None else None
     options.elasticity(length_unit="m", **constants)  # raises an error if these constants contradict each other
-    if len(surfaces) > 1 and output.suffix.lower() == ".csv":
+    if len(inputs) > 1 and output.suffix.lower() == ".csv":
         options.require(not audit, "--audit is for one file of heights; leave it out, or audit one file at a time")
         evaluate = functools.partial(_rows, settings=settings, constants=constants, threads=threads)
         settings |= constants
-        scans.tabulate(surfaces, output, evaluate, settings=settings, jobs=jobs, threads=threads, progress=progress)
+        scans.tabulate(inputs, output, evaluate, settings=settings, jobs=jobs, progress=progress)
         return
-    surface = scans.only_one(surfaces, output)
-    indenter = surface_options.read_indenter(surface, output)
+    file = scans.only_one(inputs, output)
+    indenter = surface_options.read_indenter(file, output)
     modulus, elastic_constants = options.elasticity(length_unit=indenter.length_unit, **constants)
 
     from viscorough.io.curves import curve_to_content
 
-    attributes, lines = surface.attributes(indenter) | elastic_constants, list[str]()
+    attributes, lines = file.attributes(indenter) | elastic_constants, list[str]()
     with messages.progress_bar("viscorough indent", progress) as report:
         how: dict[str, Any] = {"progress": report, "threads": threads}
         if audit:
@@ -220,7 +220,7 @@ def _rows(
         grid_error = bool(settings["grid_error"])
         return scans.rows_for_options(indenter, **loads, grid_error=grid_error, constants=constants, **how)
 
-    from viscorough.io.load_tables import rows_of_curve
+    from viscorough.io.contact_tables import rows_of_curve
 
     modulus, _ = options.elasticity(length_unit=indenter.length_unit, **constants)
     curve = viscorough.indent(indenter, **_arguments(settings), shear_modulus=modulus, **how)

@@ -34,7 +34,7 @@ METHODS = ("events", "implicit")
 @options.until(1)
 @options.progress
 def march(
-    surface: surface_options.Surface,
+    heights: surface_options.HeightsFile,
     output: Any,
     *,
     method: str,
@@ -73,7 +73,7 @@ def march(
 
     from viscorough.io.motion_files import motion_to_content
 
-    indenter = surface_options.read_indenter(surface, output, force_history=force_history, medium=medium)
+    indenter = surface_options.read_indenter(heights, output, force_history=force_history, medium=medium)
     unit = indenter.length_unit
     load, load_attributes = files.load_from_options(force or Quantity(1.0), force_history, unit, columns=columns)
     if times:  # with --times, `load` is a number, the constant force
@@ -83,7 +83,7 @@ def march(
     with messages.progress_bar("viscorough march", progress) as report:
         motion = viscorough.march(indenter, load, half_space, **how, progress=report)
     content = motion_to_content(motion)
-    files.write_output(content, output, method=method, **about, **load_attributes, **surface.attributes(indenter))
+    files.write_output(content, output, method=method, **about, **load_attributes, **heights.attributes(indenter))
     depth, last = with_unit(motion.depth[-1], unit, 6), with_unit(motion.time[-1], si_unit("s", unit), 6)
     contact = f"{round(motion.contact_fraction[-1] * indenter.elements)} of {indenter.elements} elements in contact"
     messages.announce(output, f"{motion.time.size} levels, depth {depth} at time {last} with {contact}")

@@ -204,7 +204,8 @@ threads = click.option(
 jobs = click.option(
     "--jobs",
     type=click.IntRange(1, 1024),
-    help="Files that are evaluated at a time; the results do not depend on it  [default: cores over --threads]",
+    default=1,
+    help="Files that are evaluated at a time, each in a process; the results do not depend on it.",
 )
 _PROGRESS = "Show progress on standard error, after a second  [default: if it is a terminal]"
 progress = click.option("--progress/--no-progress", default=None, help=_PROGRESS)

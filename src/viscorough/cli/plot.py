@@ -11,7 +11,7 @@ from viscorough.io import suffixes
 @click.command(short_help="A figure of a surface, a curve, a motion or a contact.")
 @surface_options.heights_input("file")
 @options.output("FIGURE", allowed=suffixes.FIGURES)
-def plot(surface: surface_options.Surface, output: Path) -> None:
+def plot(heights: surface_options.HeightsFile, output: Path) -> None:
     """Draw FILE: the output of another command (.nc), or a map of heights, which is read as by viscorough indent.
 
     A surface is drawn as a map of heights, a contact as maps of pressure, gap and contact, and a motion as depth and
@@ -31,10 +31,10 @@ def plot(surface: surface_options.Surface, output: Path) -> None:
 
     from viscorough.io.heights import surface_to_content
 
-    file = surface.path
+    file = heights.path
     files.check_output(output, results=file)
     content = fault = None
-    if not surface.options and file.suffix.lower() == ".nc":
+    if not heights.options and file.suffix.lower() == ".nc":
         try:
             content = files.read_content(file)
             plotting.kind_of(content)
@@ -42,7 +42,7 @@ def plot(surface: surface_options.Surface, output: Path) -> None:
             content, fault = None, error if str(file) in str(error) else ValueError(f"{file}: {error}")
     if content is None:  # FILE is not the output of another command, so it must be a map of heights
         try:
-            content = surface_to_content(surface_options.read_indenter(surface, output))
+            content = surface_to_content(surface_options.read_indenter(heights, output))
         except ValueError as error:
             raise (fault or error) from error
     plotting.plot(content, output)

@@ -21,7 +21,7 @@ _LIMITS_OF_LINES = (
 @options.output("CURVE.nc")
 @options.progress
 def reduce(
-    surface: surface_options.Surface,
+    heights: surface_options.HeightsFile,
     until_fraction: float,
     realizations: int | None,
     seed: int,
@@ -52,21 +52,21 @@ def reduce(
     from viscorough.io.curves import curve_to_content, stack_curves
     from viscorough.io.heights import dimensions_of_heights, read_line
 
-    line_or_map = surface.path
+    line_or_map = heights.path
     files.check_output(output, heights=line_or_map)
-    states_map = "," in surface.options.get("spacing", "")  # two spacings are given, as for a map
+    states_map = "," in heights.options.get("spacing", "")  # two spacings are given, as for a map
     if not states_map and dimensions_of_heights(line_or_map) == 1:
         text = "--realizations and --seed are for maps, of which lines are made; this is a line"
         options.require(not realizations and seed is None, text)
         text = "--channel and preparation are for maps; this is a line"
-        options.require(surface.options.keys() <= {"spacing", "unit", "lateral_unit"}, text)
+        options.require(heights.options.keys() <= {"spacing", "unit", "lateral_unit"}, text)
         about = {"heights": files.printable_name(line_or_map)}
-        lines = [read_line(line_or_map, **surface.options)]
+        lines = [read_line(line_or_map, **heights.options)]
     else:
         no_table = "--realizations: several curves are no table; a NetCDF file (.nc) is needed"
         options.require((realizations or 1) == 1 or output.suffix.lower() != ".csv", no_table)
-        indenter = surface_options.read_indenter(surface, output)
-        about = surface.attributes(indenter) | {"realizations": realizations or 1, "seed": seed or 0}
+        indenter = surface_options.read_indenter(heights, output)
+        about = heights.attributes(indenter) | {"realizations": realizations or 1, "seed": seed or 0}
         lines = (mdr.line_of_map(indenter, [seed or 0, index]) for index in range(realizations or 1))
         messages.warn(_LIMITS_OF_LINES)
     curves = []

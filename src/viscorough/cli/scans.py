@@ -1,23 +1,19 @@
-"""Evaluate many files of heights in parallel, and write one table; an interrupted run can be continued.
+"""Evaluate files of heights one after another, and write one table.
 
-1. Take the rows of unchanged files from the table, or from the unfinished table of an earlier run.
-2. Evaluate the other files in separate processes. After each file, write an unfinished table, TABLE.csv.unfinished.
-3. Write the table and remove the unfinished table.
-
-If a file cannot be evaluated, its row of the table states the reason, and the other files are evaluated. A run that is
-interrupted or killed leaves the unfinished table, and does not change the table of an earlier run. Rows depend neither
-on the order of the files nor on the number of processes.
+The table is written again after each file, so that it is whole at any time. If the same command is run again, also
+after an interrupt, rows with the same digest of file and settings are kept, and the other files are evaluated. If a
+file cannot be evaluated, its row states the reason. Rows depend neither on the order of the files nor on the number of
+processes. A thousand scans are the work of the workflow (section `measured` of its settings), not of this module.
 """
 
 from __future__ import annotations
 
-import contextlib
 import multiprocessing
 import os
 import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -31,126 +27,115 @@ from viscorough.basics.units import Quantity
 from viscorough.cli import files, messages, options, surface_options
 
 if TYPE_CHECKING:
-    from viscorough.io.load_tables import LoadRows, Rows
+    from viscorough.io.contact_tables import FileRows, Rows
 
 # Exit code if the table is complete, but some of its files have an error instead of results.
 SOME_FAILED = 3
-# These environment variables let libraries of linear algebra use one thread in each process. More threads would compete
-# for the cores, and the rounding of results would depend on the number of threads.
-_ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
-_DIED = "its process ended without a result, as happens if there is not enough memory; --jobs 1 needs less"
+_DIED = "a process ended without a result, as happens if there is not enough memory; --jobs 1 needs less"
 
 
-class Scan(NamedTuple):
-    """File of heights to evaluate. A Scan can be pickled, so that it can be sent to another process.
+class _Job(NamedTuple):
+    """File of heights to evaluate. A job can be pickled, so that it can be sent to another process.
 
     name : name of the file in the table
-    surface : the file, with the options for reading and preparing it
-    digest : digest (io.load_tables.digest_of_scan) of the file and the settings; "" if the file cannot be read
+    file : the file, with the options for reading and preparing it
+    digest : digest (io.contact_tables.digest_of_file) of the file and the settings; "" if the file cannot be read
     evaluate : function with the arguments indenter and `progress`, which returns rows of the table and {column: unit}
     """
 
     name: str
-    surface: surface_options.Surface
+    file: surface_options.HeightsFile
     digest: str
     evaluate: Callable[..., Rows]
 
-    def is_in(self, finished: dict[str, LoadRows]) -> bool:
-        """Return True if `finished`, {name of a file: its rows}, has rows of this file with the same settings."""
-        return bool(self.digest) and self.name in finished and finished[self.name].digest == self.digest
-
 
 def tabulate(
-    surfaces: Sequence[surface_options.Surface],
+    inputs: Sequence[surface_options.HeightsFile],
     output: Path,
     evaluate: Callable[..., Rows],
     *,
     settings: dict[str, Any],
-    jobs: int | None,
-    threads: int,
+    jobs: int,
     progress: bool | None,
 ) -> None:
     """Write the rows of all files as a table, and a closing line.
 
-    surfaces : the files, which are all read and prepared with the same options
+    inputs : the files, which are all read and prepared with the same options
     evaluate : function with the arguments indenter and `progress`, which returns rows of the table and {column: unit};
         it must be picklable
     settings : {option: value} of all other options on which the rows depend; None for options that are not given
-    jobs : number of files that are evaluated at a time; None for the number of cores divided by `threads`
-    threads : number of threads that `evaluate` uses for each file
+    jobs : number of files that are evaluated at a time
     progress : True or False to show or hide the progress; None to show it on a terminal
 
     If there is only one file, its error is raised. If some of several files have an error, Exit with SOME_FAILED is
     raised after the table is written.
     """
-    from viscorough.io.load_tables import digest_of_scan, finished_rows
+    from viscorough.io.contact_tables import digest_of_file, rows_in_table
 
-    label, unfinished = click.get_current_context().command_path, output.with_name(f"{output.name}.unfinished")
-    for surface in surfaces:
-        files.check_output(output, heights=surface.path)
-    files.check_output(unfinished)
-    surfaces[0].parsed()  # raises an error for a wrong option before any file is read
-    spelled = _spelled(surfaces[0].options | settings)
-    scans = []
-    for name, surface in sorted({files.printable_path(surface.path): surface for surface in surfaces}.items()):
-        digest = digest_of_scan(surface.path, f"{viscorough.__version__} {label} {spelled}")
-        scans.append(Scan(name, surface, digest, evaluate))
-    finished = finished_rows(output) | finished_rows(unfinished)
-    results = {scan.name: finished[scan.name] for scan in scans if scan.is_in(finished)}
-    unchanged, remaining = len(results), [scan for scan in scans if scan.name not in results]
+    label = click.get_current_context().command_path
+    for each in inputs:
+        files.check_output(output, heights=each.path)
+    inputs[0].parsed()  # raises an error for a wrong option before any file is read
+    spelled, earlier = _spelled(inputs[0].options | settings), rows_in_table(output)
+    results, remaining = {}, []
+    for name, file in sorted({files.printable_path(each.path): each for each in inputs}.items()):
+        digest = digest_of_file(file.path, f"{viscorough.__version__} {label} {spelled}")
+        if digest and name in earlier and earlier[name].digest == digest:
+            results[name] = earlier[name]
+        else:
+            remaining.append(_Job(name, file, digest, evaluate))
+    unchanged, count = len(results), len(results) + len(remaining)
     with messages.progress_bar(label, progress) as report:
-        if len(scans) == 1:
-            results |= {scan.name: _in_this_process(scan, report) for scan in remaining}
-            listed = _write(results, output, spelled)
+        if count == 1:
+            results |= {job.name: _single(job, report) for job in remaining}
         else:
             try:
                 with on_interrupt(signal.default_int_handler):
-                    for result in _in_processes(remaining, jobs or max(1, _cores() // threads)):
+                    for result in _each(remaining, jobs):
                         results[result.file] = result
-                        _write(results, unfinished, spelled)
-                        report(len(results) / len(scans))
-                    listed = _write(results, output, spelled)
-                    unfinished.unlink(missing_ok=True)
+                        _write(results, output, spelled)
+                        report(len(results) / count)
             except KeyboardInterrupt:
-                done = f"{len(results)} of {len(scans)} files are finished"
+                done = f"{len(results)} of {count} files are finished"
                 messages.complain(label, f"interrupted: {done}; the same command continues")
                 raise
+    listed = _write(results, output, spelled)
     _close(output, listed, unchanged, label)
 
 
-def _write(results: dict[str, LoadRows], path: Path, options: str) -> list[LoadRows]:
+def _write(results: dict[str, FileRows], path: Path, options: str) -> list[FileRows]:
     """Write the rows of all files as a table; return the rows in the order and with the units of the table.
 
     results : {name of a file: its rows}
     options : text of the given options, which becomes an attribute of the table
     """
-    from viscorough.io import load_tables, tables
+    from viscorough.io import contact_tables, tables
 
-    listed = load_tables.with_one_unit(results.values())
-    tables.write(load_tables.load_table(listed, options=options), path)
+    listed = contact_tables.with_one_unit(results.values())
+    tables.write(contact_tables.contact_table(listed, options=options), path)
     return listed
 
 
-def only_one(surfaces: Sequence[surface_options.Surface], output: Path) -> surface_options.Surface:
+def only_one(inputs: Sequence[surface_options.HeightsFile], output: Path) -> surface_options.HeightsFile:
     """Return the only file of heights. Raises UsageError for several files, since their results need a table."""
-    text = f"{output}: {len(surfaces)} files of heights need a table; -o TABLE.csv, or one file at a time, is allowed"
-    options.require(len(surfaces) == 1, text)
-    return surfaces[0]
+    text = f"{output}: {len(inputs)} files of heights need a table; -o TABLE.csv, or one file at a time, is allowed"
+    options.require(len(inputs) == 1, text)
+    return inputs[0]
 
 
 def rows_for_options(indenter: viscorough.Indenter, *, constants: dict[str, Any], **how: Any) -> Rows:
     """Return the rows of a table, one for each depth or force, and {column: unit}.
 
     constants : arguments of options.elasticity
-    how : further arguments of io.scan_rows.rows_at_loads
+    how : further arguments of io.contact_tables.rows_at_loads
     """
-    from viscorough.io import scan_rows
+    from viscorough.io import contact_tables
 
     modulus, _ = options.elasticity(length_unit=indenter.length_unit, **constants)
-    return scan_rows.rows_at_loads(indenter, shear_modulus=modulus, **how)
+    return contact_tables.rows_at_loads(indenter, shear_modulus=modulus, **how)
 
 
-def _close(output: Path, listed: Sequence[LoadRows], unchanged: int, label: str) -> None:
+def _close(output: Path, listed: Sequence[FileRows], unchanged: int, label: str) -> None:
     """Write the closing line of a table, one line about all warnings, and one line about all failures.
 
     listed : rows, or the error, of each file
@@ -158,7 +143,7 @@ def _close(output: Path, listed: Sequence[LoadRows], unchanged: int, label: str)
 
     Raises Exit if one of several files failed.
     """
-    from viscorough.io.load_tables import text_of_row
+    from viscorough.io.contact_tables import text_of_row
 
     if len(listed) == 1:
         (result,) = listed
@@ -190,99 +175,58 @@ def _spelled(values: dict[str, Any]) -> str:
     return " ".join(f"--{name}" if value is True else f"--{name} {text(value)}" for name, value in given.items())
 
 
-def _in_this_process(scan: Scan, progress: Callable[[float], object]) -> LoadRows:
-    """Evaluate a file in this process, and return its rows with the texts of the warnings.
+def _single(job: _Job, progress: Callable[[float], object]) -> FileRows:
+    """Evaluate the only file, and return its rows with the texts of the warnings.
 
     Errors are not caught. The command shows the warnings, too.
     """
-    from viscorough.io.load_tables import LoadRows
+    from viscorough.io.contact_tables import FileRows
 
-    rows, units = scan.evaluate(scan.surface.read(), progress=progress)
+    rows, units = job.evaluate(job.file.read(), progress=progress)
     texts = messages.warning_texts(click.get_current_context().obj)
-    return LoadRows(scan.name, scan.digest, rows, units, warnings="; ".join(texts))
+    return FileRows(job.name, job.digest, rows, units, warnings="; ".join(texts))
 
 
-def _in_a_process(scan: Scan) -> LoadRows:
-    """Evaluate a file in a separate process, and return its rows, or the text of its error instead of rows."""
-    from viscorough.io.load_tables import LoadRows
-    from viscorough.io.scan_rows import evaluated
+def _rows_of(job: _Job) -> FileRows:
+    """Evaluate a file, and return its rows, or the text of its error instead of rows."""
+    from viscorough.io.contact_tables import FileRows, evaluated
 
     with spelled_as_options():
-        return evaluated(LoadRows(scan.name, scan.digest), scan.surface.path, scan.surface.read, scan.evaluate)
+        return evaluated(FileRows(job.name, job.digest), job.file.path, job.file.read, job.evaluate)
 
 
-def _in_processes(scans: Sequence[Scan], jobs: int) -> Iterator[LoadRows]:
-    """Evaluate files in parallel, and yield the rows or the error of each file as soon as it is finished.
+def _each(remaining: Sequence[_Job], jobs: int) -> Iterator[FileRows]:
+    """Yield the rows or the error of each file as soon as it is finished.
 
-    jobs : number of processes
-
-    If a process dies, the files that are not finished are evaluated one at a time, each in a new process.
+    jobs : number of processes. With more than one, the first files are evaluated in this process until one succeeds,
+        so that the inner loops are compiled: several processes that compile them at the same time can crash
     """
-    waiting = {scan.name: scan for scan in scans}
-    try:
-        with _processes(min(jobs, len(scans) or 1)) as submit:
-            # Evaluate one file at a time until a file succeeds, so that the inner loops are compiled: several processes
-            # that compile them at the same time can crash.
-            for scan in scans:
-                result = submit(scan).result()
-                del waiting[result.file]
-                yield result
-                if not result.error:
-                    break
-            for future in as_completed([submit(scan) for scan in waiting.values()]):
-                result = future.result()
-                del waiting[result.file]
-                yield result
-    except BrokenProcessPool:
-        for scan in waiting.values():
-            yield _alone(scan)
+    from viscorough.io.contact_tables import FileRows
+
+    waiting, compiled = list(remaining), False
+    while waiting and not (compiled and jobs > 1):
+        result = _rows_of(waiting.pop(0))
+        compiled = not result.error
+        yield result
+    if not waiting:
+        return
+    spawned = multiprocessing.get_context("spawn")  # a forked copy could contain locks that no thread releases
+    with ProcessPoolExecutor(min(jobs, len(waiting)), spawned, _follow_parent) as pool:
+        futures = {pool.submit(_rows_of, job): job for job in waiting}
+        try:
+            for future in as_completed(futures):
+                try:
+                    yield future.result()
+                except BrokenProcessPool:
+                    yield FileRows(futures[future].name, futures[future].digest, error=_DIED)
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
 
 
-def _alone(scan: Scan) -> LoadRows:
-    """Evaluate a file in a new process, and return its rows or its error.
-
-    If the process dies, the error states this.
-    """
-    from viscorough.io.load_tables import LoadRows
-
-    try:
-        with _processes(1) as submit:
-            return submit(scan).result()
-    except BrokenProcessPool:
-        return LoadRows(scan.name, scan.digest, error=_DIED)
-
-
-@contextlib.contextmanager
-def _processes(count: int) -> Iterator[Callable[[Scan], Future[LoadRows]]]:
-    """Yield a function that evaluates a file in one of `count` processes.
-
-    The processes are spawned, not forked: a forked copy of this process could contain locks that no thread releases.
-    The processes ignore Ctrl-C. They end if an error leaves this context, or if this process dies.
-    """
-    others, environment = set(multiprocessing.active_children()), {name: os.environ.get(name) for name in _ONE_THREAD}
-    os.environ.update(_ONE_THREAD)
-    pool = ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), initializer=_end_with_parent)
-
-    def submit(scan: Scan) -> Future[LoadRows]:
-        with on_interrupt(signal.SIG_IGN):  # a process that starts here also ignores Ctrl-C
-            return pool.submit(_in_a_process, scan)
-
-    try:
-        yield submit
-    except BaseException:
-        for process in set(multiprocessing.active_children()) - others:
-            process.terminate()
-        raise
-    finally:
-        pool.shutdown(cancel_futures=True)
-        for name, value in environment.items():
-            os.environ.pop(name)
-            if value is not None:
-                os.environ[name] = value
-
-
-def _end_with_parent() -> None:
-    """End this process when its parent process dies; otherwise this process would wait for work forever."""
+def _follow_parent() -> None:
+    """Leave Ctrl-C to the parent process, and end this process when it dies; it would wait for work forever."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
 
     def end() -> None:
@@ -291,8 +235,3 @@ def _end_with_parent() -> None:
         os._exit(1)
 
     threading.Thread(target=end, daemon=True).start()
-
-
-def _cores() -> int:
-    """Return the number of cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

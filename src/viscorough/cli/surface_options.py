@@ -23,7 +23,7 @@ _PREPARATION = ("scale", "nodata", "crop", "flip", "detrend", "fill")
 
 
 @dataclass(frozen=True)
-class Surface:
+class HeightsFile:
     """File of heights, with the options that the user gave for reading and preparing it.
 
     options : {name of an option: its text, or True for a flag}
@@ -90,10 +90,10 @@ _VALUES: dict[str, Callable[[str], Any]] = {
 def heights_input(argument: str = "heights", *, several: bool = False) -> Callable[..., Any]:
     """Return a decorator that adds an argument for a file of heights, and the options for reading it, to a command.
 
-    The command receives the file and its options as the argument `surface`, a Surface.
+    The command receives the file and its options as the argument `heights`, a HeightsFile.
 
     argument : name of the argument in the help
-    several : True if several files are allowed. The command then receives the argument `surfaces`, a list of Surface
+    several : True if several files are allowed. The command then receives the argument `inputs`, a list of HeightsFile
     """
 
     def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -128,19 +128,19 @@ def heights_input(argument: str = "heights", *, several: bool = False) -> Callab
             paths, stated = values.pop(argument), {name: values.pop(name) for name in _READING + _PREPARATION}
             given = {name: value for name, value in stated.items() if value not in (None, False, "none")}
             if several:
-                return command(surfaces=[Surface(path, given) for path in paths], **values)
-            return command(surface=Surface(paths, given), **values)
+                return command(inputs=[HeightsFile(path, given) for path in paths], **values)
+            return command(heights=HeightsFile(paths, given), **values)
 
         return packed
 
     return decorate
 
 
-def read_indenter(surface: Surface, output: Path, **inputs: Path | None) -> viscorough.Indenter:
-    """Check that the output can be written, then read and prepare the heights of a Surface.
+def read_indenter(heights: HeightsFile, output: Path, **inputs: Path | None) -> viscorough.Indenter:
+    """Check that the output can be written, then read and prepare the heights of a HeightsFile.
 
     inputs : other input files of the command, which the output must not replace; see files.check_output
     Raises ValueError for an output that cannot be written and for invalid heights.
     """
-    files.check_output(output, heights=surface.path, **inputs)
-    return surface.read()
+    files.check_output(output, heights=heights.path, **inputs)
+    return heights.read()

@@ -10,9 +10,15 @@ import pandas as pd
 
 from viscorough import __version__
 from viscorough.basics.elasticity import young_over_shear
+from viscorough.io.contact_tables import (
+    SI_COLUMNS,
+    FileRows,
+    digest_of_file,
+    evaluated,
+    lines_of_files,
+    rows_at_loads,
+)
 from viscorough.io.curves import unstack_curves
-from viscorough.io.load_tables import SI_COLUMNS, LoadRows, digest_of_scan, lines_of_files
-from viscorough.io.scan_rows import evaluated, rows_at_loads
 from viscorough.viscous.kinetics import kinetics
 from viscorough_study.comparisons.media_kinetics import named_media, reached_times
 from viscorough_study.ensembles.averages import abscissa
@@ -73,12 +79,12 @@ def measured_contacts(scans):
 
 
 def _evaluated_scan(scan):
-    """Solve the elastic contact of one scan under all its forces, and return its LoadRows (io.load_tables)."""
+    """Solve the elastic contact of one scan under all its forces, and return its FileRows (io.contact_tables)."""
     reading, loading = ({name: scan[name] for name in names} for names in (_READING, _LOADING))
     modulus = scan["young_modulus"] / young_over_shear(scan["poisson_ratio"])
     settings = f"{__version__} {json.dumps(reading | loading, sort_keys=True)}"
     return evaluated(
-        LoadRows(str(scan["file"]), digest_of_scan(scan["file"], settings)),
+        FileRows(str(scan["file"]), digest_of_file(scan["file"], settings)),
         Path(scan["file"]),
         partial(measured_indenter, scan["file"], **reading),
         partial(rows_at_loads, force=sorted(scan["forces"]), shear_modulus=modulus, grid_error=True),

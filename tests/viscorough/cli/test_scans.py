@@ -1,6 +1,5 @@
 """A folder of scans to one table: the numbers of single files, in any order, continued after an interrupt."""
 
-import multiprocessing
 import re
 
 import numpy as np
@@ -10,10 +9,9 @@ import viscorough
 from support import dying_process
 from support.command_line import run, sphere_heights
 from support.tables import read_table
-from support.workflow import COPIES
 from viscorough import contact_at, indent, self_affine_disc
 from viscorough.cli import scans
-from viscorough.cli.surface_options import Surface
+from viscorough.cli.surface_options import HeightsFile
 
 OPTIONS = "--force '10 uN,50 uN' --young '2 MPa'"
 
@@ -33,12 +31,6 @@ def here(here):
     return here
 
 
-@pytest.fixture
-def forked(monkeypatch):
-    """Fork the processes that evaluate files, which takes less time than starting them as the other tests do."""
-    monkeypatch.setattr(multiprocessing, "get_context", lambda method: COPIES)
-
-
 def contact(names="a.nc b.nc c.nc", options="", output="table.csv"):
     """Return the exit code of viscorough contact for these files."""
     files = " ".join(f"scans/{name}" for name in names.split())
@@ -53,7 +45,6 @@ def mark(path, row=0):
     path.write_text("".join(lines))
 
 
-@pytest.mark.usefixtures("forked")
 def test_a_folder_becomes_a_table_of_all_files_and_loads(here, capsys):
     """Python gives the same numbers, in um and N. A file that cannot be read has a reason, and the exit code is 3."""
     assert contact() == scans.SOME_FAILED
@@ -82,7 +73,6 @@ def test_the_table_depends_neither_on_jobs_nor_on_the_order_of_files(here):
     assert (here / "one.csv").read_bytes() == (here / "two.csv").read_bytes()
 
 
-@pytest.mark.usefixtures("forked")
 def test_only_changed_files_are_evaluated_again(here, capsys):
     contact("a.nc b.nc", "--jobs 1")
     table = here / "table.csv"
@@ -101,39 +91,35 @@ def test_only_changed_files_are_evaluated_again(here, capsys):
     assert ",777," not in table.read_text()
 
 
-def test_interrupted_run_leaves_no_table_and_continues(here, capsys, monkeypatch):
-    whole = scans._in_processes
+def test_interrupted_run_leaves_the_finished_rows_and_continues(here, capsys, monkeypatch):
+    whole = scans._each
 
     def interrupted(remaining, jobs):
         yield next(iter(whole(remaining, jobs)))
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(scans, "_in_processes", interrupted)
+    monkeypatch.setattr(scans, "_each", interrupted)
     assert contact("a.nc b.nc") == 130
     captured = capsys.readouterr()
     assert (captured.out, len(captured.err.splitlines())) == ("", 1)
     assert "1 of 2 files are finished; the same command continues" in captured.err
-    unfinished = here / "table.csv.unfinished"
-    assert not (here / "table.csv").exists()
-    mark(unfinished)
-    monkeypatch.setattr(scans, "_in_processes", whole)
+    assert read_table("table.csv")[0]["file"].tolist() == ["scans/a.nc"] * 2
+    mark(here / "table.csv")
+    monkeypatch.setattr(scans, "_each", whole)
     assert contact("a.nc b.nc") == 0
     assert capsys.readouterr().out == "table.csv: 4 rows of 2 files, 1 of them unchanged\n"
     assert (here / "table.csv").read_text().count(",777,") == 1
-    assert not unfinished.exists()
 
 
-def test_process_that_dies_loses_only_its_own_file(here):
-    """The other files are evaluated again, each alone."""
-    evaluated = []
-    for points in (5, 7, 9):
+def test_process_that_dies_leaves_the_reason_in_its_rows(here):
+    jobs = []
+    for points in (9, 5):
         np.save(f"{points}.npy", np.arange(points**2, dtype=float).reshape(points, points))
-        opened = Surface(here / f"{points}.npy", {"spacing": "1"})
-        evaluated.append(scans.Scan(str(points), opened, "", dying_process.evaluate))
-    results = {result.file: result for result in scans._in_processes(evaluated, 2)}
-    assert sorted(results) == ["5", "7", "9"]
-    assert "its process ended" in results["5"].error
-    assert [results[name].rows for name in "79"] == [[{"depth": 49.0}], [{"depth": 81.0}]]
+        opened = HeightsFile(here / f"{points}.npy", {"spacing": "1"})
+        jobs.append(scans._Job(str(points), opened, "", dying_process.evaluate))
+    results = {result.file: result for result in scans._each(jobs, 2)}
+    assert results["9"].rows == [{"depth": 81.0}]
+    assert "a process ended without a result" in results["5"].error
 
 
 def test_single_file_gives_a_table_of_its_loads(here, capsys):
@@ -148,7 +134,6 @@ def test_single_file_gives_a_table_of_its_loads(here, capsys):
     assert not (here / "other.csv").exists()
 
 
-@pytest.mark.usefixtures("forked")
 def test_curves_of_a_folder_have_a_row_for_each_level(here):
     command = "indent scans/a.nc scans/b.nc --young '2 MPa' -o curves.csv"
     assert run(f"{command} --until-force '20 uN'") == 0
@@ -180,7 +165,6 @@ def test_wrong_options_are_not_reported_as_errors_of_files(complaint, line, what
     assert what in complaint(line)
 
 
-@pytest.mark.usefixtures("forked")
 def test_warnings_of_files_are_in_the_table(here, capsys):
     np.save("scans/steep.npy", 40 * sphere_heights(9))
     assert run("contact scans/steep.npy scans/a.nc --spacing 1 --unit um --depth 0.1 -o table.csv") == 0

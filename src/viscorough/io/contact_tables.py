@@ -1,16 +1,16 @@
-"""Write and read tables with one row for each load of each file of heights.
+"""Compute, write and read tables with one row for each load of each file of heights.
 
 The columns are depth, force, stiffness, contact area, pressures and, on request, grid errors. Lengths are in um and
 areas in um2. If the shear modulus is given, forces are in N, stiffnesses in N/m and pressures in MPa. For the units in
 other cases see viscorough.basics.units.result_units. A file that could not be evaluated has one row with the error and
-without numbers. Every row has a digest of its file and of the settings. Thanks to the digests, a table can be
-continued: rows of unchanged files are taken from the table instead of being computed again.
+without numbers. Every row has a digest of its file and of the settings, so that rows of unchanged files can be kept.
 """
 
 import csv
 import hashlib
 import itertools
-from collections.abc import Iterable, Sequence
+import warnings
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -18,7 +18,11 @@ import numpy as np
 
 from viscorough.basics import units
 from viscorough.basics.argument_names import argument
-from viscorough.basics.types import Array, FilePath
+from viscorough.basics.errors import REPORTED, AccuracyWarning, message
+from viscorough.basics.types import Array, FilePath, Progress
+from viscorough.contact.loading_path import indent
+from viscorough.contact.one_contact import contact_at
+from viscorough.contact.sampling import part_of
 from viscorough.io.atomic import reading
 from viscorough.io.contact_files import NUMBERS, NUMBERS_WITH_MODULUS, PATCHES
 from viscorough.io.curves import ABOUT_GRID, OVER_LEVELS
@@ -86,15 +90,23 @@ SI_COLUMNS: dict[str, tuple[str, str | None]] = {
     },
     **{name: (text, None) for name, text in _TEXTS.items() if name != "file"},
 }
-# GDAL reads companion files together with a file of heights such as map.asc. Their names have another suffix (map.prj;
-# suffixes in _COMPANIONS) or an additional ending (map.asc.msk; endings in _ADDED).
-_COMPANIONS, _ADDED = (".prj", ".PRJ", ".hdr", ".HDR", ".tfw", ".TFW"), (".msk", ".aux.xml")
+# Suffixes of companion files of an ESRI grid.
+_COMPANIONS = (".prj", ".PRJ")
+
+# If grid errors are computed as well, the computation of the contacts counts as this share of the progress.
+_SHARE_OF_CONTACTS = 0.3
+# For grid errors, contacts at these multiples of the force of each load are computed as well. A grid error is a mean
+# over half a decade of forces, since the difference of two curves at a single force can be zero by chance.
+_FORCES_BELOW = (10**-0.5, 10**-0.25)
+# A contact for grid errors is left out if its force differs from the force of another contact by less than this share:
+# the results of both contacts would differ by less than the tolerance.
+_LEAST_DIFFERENCE = 0.02
 
 Row = dict[str, float | int]
 Rows = tuple[Sequence[Row], dict[str, str]]  # (rows of a table, {column: unit})
 
 
-class LoadRows(NamedTuple):
+class FileRows(NamedTuple):
     """Rows of a table of contacts that belong to one file of heights, one row for each load.
 
     file : name of the file
@@ -161,6 +173,53 @@ def _rounded(number: float) -> float:
     return float(f"{number:.15g}")
 
 
+def rows_at_loads(
+    indenter: Indenter,
+    *,
+    force: Any = None,
+    depth: Any = None,
+    shear_modulus: float | None = None,
+    grid_error: bool = False,
+    progress: Progress | None = None,
+    **how: Any,
+) -> Rows:
+    """Compute the contact at each load. Return (rows of a table, {column: unit}), with one row for each load.
+
+    Raises the errors of `contact_at`.
+
+    force, depth : increasing forces [N, or length² without a modulus] or depths [length]; give one of the two
+    shear_modulus : G [Pa], or in consistent units if the unit of length is not known
+    grid_error : True for the columns grid_error, force_grid_error and area_change
+    progress : function called with the finished share of the computation
+    how : further arguments of `contact_at` and `indent`: tolerance and threads
+    """
+    loads: dict[str, Any] = {"force": force, "depth": depth, "shear_modulus": shear_modulus}
+    if not grid_error:
+        return rows_of_contacts(contact_at(indenter, **loads, **how, progress=progress))
+    progress = progress or (lambda done: None)
+    contacts: list[Contact] = contact_at(indenter, **loads, **how, progress=part_of(progress, 0.0, _SHARE_OF_CONTACTS))
+    curve = _curve_with_grid_errors(indenter, contacts, progress=part_of(progress, _SHARE_OF_CONTACTS, 1.0), **how)
+    places = [int(np.argmin(np.abs(curve.force - contact.force))) for contact in contacts]
+    return rows_of_contacts(contacts, {name: getattr(curve, name)[places] for name in ABOUT_GRID})
+
+
+def _curve_with_grid_errors(indenter: Indenter, contacts: list[Contact], **how: Any) -> LoadingCurve:
+    """Return the loading curve with grid errors, at the forces of the contacts and at lower forces (_FORCES_BELOW)."""
+    forces = _with_forces_below(np.array([contact.force for contact in contacts]))
+    # The computation of the contacts has already given the same warnings.
+    with warnings.catch_warnings(action="ignore", category=AccuracyWarning):
+        return indent(indenter, forces=forces, estimate_grid_error=True, **how)
+
+
+def _with_forces_below(forces: Array) -> Array:
+    """Return the given forces and the lower forces for grid errors (_FORCES_BELOW), in increasing order."""
+    levels = list(forces)
+    for candidate in np.multiply.outer(forces, _FORCES_BELOW).ravel():
+        if all(abs(candidate - level) > _LEAST_DIFFERENCE * level for level in levels):
+            levels.append(candidate)
+    return np.sort(levels)
+
+
 def text_of_row(row: Row, stated: dict[str, str]) -> str:
     """Return one line of text with the main numbers of a contact.
 
@@ -182,15 +241,43 @@ def text_of_row(row: Row, stated: dict[str, str]) -> str:
     return ", ".join([*parts, f"{row['patches']} patch{'' if row['patches'] == 1 else 'es'}"])
 
 
-def digest_of_scan(path: FilePath, settings: str) -> str:
-    """Return a digest of a file of heights, of its companion files (such as .prj and .hdr), and of the settings.
+def evaluated(
+    file: FileRows, path: Path, read: Callable[[], Indenter], evaluate: Callable[[Indenter], Rows]
+) -> FileRows:
+    """Read and evaluate a file of heights. Return `file` with the rows and warnings, or with the error that occurred.
+
+    file : FileRows with the name and the digest of the file
+    path : path of the file. It is removed from messages, since the table has a column with the name of the file
+    read : function that reads the file and returns the indenter
+    evaluate : function of the indenter that returns the rows and {column: unit}
+    """
+    with warnings.catch_warnings(record=True) as caught:
+        try:
+            rows, stated = evaluate(read())
+            file = file._replace(rows=rows, units=stated)
+        except REPORTED as error:
+            file = file._replace(error=_without_path(message(error), path))
+        # Any other error is a fault of viscorough. It is reported, too, so that the evaluation of other files goes on.
+        except Exception as error:
+            file = file._replace(error=f"{type(error).__name__}: {_without_path(message(error), path)}")
+    texts = dict.fromkeys(_without_path(str(warning.message), path) for warning in caught)
+    return file._replace(warnings="; ".join(texts))
+
+
+def _without_path(text: str, path: Path) -> str:
+    """Return the text of an error or warning on one line, without the path at its start."""
+    return " ".join(text.split()).removeprefix(f"{path}: ")
+
+
+def digest_of_file(path: FilePath, settings: str) -> str:
+    """Return a digest of a file of heights, of its companion file (.prj), and of the settings.
 
     settings : text that states the version of viscorough, the command and its options
 
     Returns "" if one of the files cannot be read.
     """
     file = Path(path)
-    companions = [file.with_suffix(suffix) for suffix in _COMPANIONS] + [Path(f"{file}{end}") for end in _ADDED]
+    companions = [file.with_suffix(suffix) for suffix in _COMPANIONS]
     digest = hashlib.sha256(settings.encode(errors="backslashreplace"))
     try:
         for each in [file, *(companion for companion in companions if companion != file and companion.is_file())]:
@@ -201,7 +288,7 @@ def digest_of_scan(path: FilePath, settings: str) -> str:
     return digest.hexdigest()[:_DIGEST_DIGITS]
 
 
-def with_one_unit(results: Iterable[LoadRows]) -> list[LoadRows]:
+def with_one_unit(results: Iterable[FileRows]) -> list[FileRows]:
     """Sort the results of files by file name, and ensure that each column of their rows has a single unit.
 
     If some files state a unit of length and others do not, the files without a unit get an error instead of rows.
@@ -216,7 +303,7 @@ def with_one_unit(results: Iterable[LoadRows]) -> list[LoadRows]:
     ]
 
 
-def lines_of_files(results: Iterable[LoadRows]) -> list[dict[str, Any]]:
+def lines_of_files(results: Iterable[FileRows]) -> list[dict[str, Any]]:
     """Return all rows of a table, each as a dict {column: value}, from the results of several files of heights.
 
     A file has one row for each load. A file that could not be evaluated has one row, with the error instead of numbers.
@@ -224,7 +311,7 @@ def lines_of_files(results: Iterable[LoadRows]) -> list[dict[str, Any]]:
     return [row | {name: getattr(result, name) for name in _TEXTS} for result in results for row in result.rows or [{}]]
 
 
-def load_table(results: Sequence[LoadRows], **attributes: Any) -> Content:
+def contact_table(results: Sequence[FileRows], **attributes: Any) -> Content:
     """Convert the results of files to the content of a table.
 
     results : rows or error of each file, as `with_one_unit` returns them
@@ -247,13 +334,13 @@ def _column(values: list[Any], meaning: str, **attributes: str) -> Variable:
     return Variable(("row",), column, {"long_name": meaning, **attributes})
 
 
-def finished_rows(path: FilePath) -> dict[str, LoadRows]:
+def rows_in_table(path: FilePath) -> dict[str, FileRows]:
     """Read a table of contacts that was written earlier, and return {name of a file of heights: its rows}.
 
     Files of heights with an error are left out. Return {} if `path` is missing or is no table of contacts, for example
     because another program has changed its form.
     """
-    found: dict[str, LoadRows] = {}
+    found: dict[str, FileRows] = {}
     try:
         with open(path, encoding="utf-8", newline="") as file:
             table = csv.DictReader(itertools.dropwhile(lambda line: line.startswith("# "), file))
@@ -265,7 +352,7 @@ def finished_rows(path: FilePath) -> dict[str, LoadRows]:
                     continue
                 row: Row = {name: (int if name in _COUNTS else float)(cells[name]) for name in stated}
                 name = cells["file"]
-                before = found.get(name, LoadRows(name, cells["digest"], units=stated, warnings=cells["warnings"]))
+                before = found.get(name, FileRows(name, cells["digest"], units=stated, warnings=cells["warnings"]))
                 found[name] = before._replace(rows=[*before.rows, row])
     except (OSError, KeyError, TypeError, ValueError, csv.Error):
         return {}

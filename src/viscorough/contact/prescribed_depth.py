@@ -225,8 +225,13 @@ class ContactSolver:
         if contact.reduced_depth < 1:
             return False  # the depth is less than the initial gap of the lowest element, which therefore cannot touch
         fields, limit = contact.fields, _OPEN_GAP * contact.residual * contact.reduced_depth
-        fixed = limit, fields.gap_change.values, fields.initial_gap
-        return not any(self._loops.each(kernels.has_open_gap, fixed, fields.place))
+        gap_change, initial_gap = fields.gap_change.values, fields.initial_gap
+
+        def has_open_gap(i: int, j: int) -> bool:
+            places = fields.place[i:j]
+            return kernels.has_open_gap(limit=limit, gap_change=gap_change, initial_gap=initial_gap, places=places)
+
+        return not any(self._loops.over(fields.place, has_open_gap))
 
     def complete_contact(self) -> ContactState:
         """Compute the contact at the depth where contact becomes complete, from two linear problems.

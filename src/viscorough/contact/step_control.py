@@ -229,7 +229,6 @@ def _predicted_error(before: ContactState, after: ContactState, threads: int) ->
     # An element with place 0 lies outside the grid of the contact `before`, so its gap there is unknown.
     if place.size < _PREDICTED_COUNT or not place.all():
         return np.inf
-    fields = before.fields.gap_change.values, before.fields.initial_gap, before.fields.tangent_gap.values
     share, width = _POINTS[1::2], after.reduced_depth - before.reduced_depth
     pressure, tangent = (load[place_after].astype(float) for load in (after.fields.pressure, after.fields.tangent))
 
@@ -237,7 +236,17 @@ def _predicted_error(before: ContactState, after: ContactState, threads: int) ->
     # sums are Σw, then Σw (1 − t), then Σw max(s − t, 0) for every share s of the interval in `share`.
     def touch_sums(i: int, j: int) -> Array:
         part = np.zeros(2 + share.size)
-        kernels.touch_sums(*fields, width, share, part, place[i:j], pressure[i:j], tangent[i:j])
+        kernels.touch_sums(
+            gap_change=before.fields.gap_change.values,
+            initial_gap=before.fields.initial_gap,
+            tangent_gap=before.fields.tangent_gap.values,
+            width=width,
+            share=share,
+            sums=part,
+            places=place[i:j],
+            pressure=pressure[i:j],
+            tangent=tangent[i:j],
+        )
         return part
 
     sums = sum(loops.over(place, touch_sums))

@@ -12,9 +12,8 @@ Symbols are defined in contact.state. The formulas of this module are for the pr
 replace P by q and e by e_q.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -62,8 +61,18 @@ class PreconditionedResidual:
         depth_step : Δu
         response : M 1 on the contact set, from `ConjugateGradients.uniform_response`
         """
-        fixed = np.float32(depth_step), self.gap, self.preconditioned
-        self._loops.each(kernels.shift_on_set, fixed, self.contact_set.places, response)
+        places, step = self.contact_set.places, np.float32(depth_step)
+
+        def shift(i: int, j: int) -> None:
+            kernels.shift_on_set(
+                depth_step=step,
+                gap=self.gap,
+                preconditioned=self.preconditioned,
+                places=places[i:j],
+                response=response[i:j],
+            )
+
+        self._loops.over(places, shift)
 
 
 class Direction:
@@ -123,7 +132,14 @@ class Direction:
         # exact, the direction d is zero, and the length of the step is 0.
         length = gap.dtype.type(-by_gap / by_direction if by_direction > 0 else 0.0)
         self._loops.update_gap(length, deflection, gap)
-        return any(self._over_set(kernels.update_pressure, length, self._values, pressure))
+        _, places, slots = self._residual.contact_set
+
+        def update(i: int, j: int) -> bool:
+            return kernels.update_pressure(
+                length=length, direction=self._values, pressure=pressure, places=places[i:j], slots=slots[i:j]
+            )
+
+        return any(self._loops.over(places, update))
 
     def unloaded_under_tension(self, pressure: Array) -> Integers:
         """Return the indices of elements without pressure that any step along d would put under tension.
@@ -134,14 +150,23 @@ class Direction:
 
         def find(i: int, j: int) -> Integers:
             found = np.empty(j - i, places.dtype)
-            count = kernels.unloaded_under_tension(self._values, pressure, places[i:j], slots[i:j], found)
+            count = kernels.unloaded_under_tension(
+                direction=self._values, pressure=pressure, places=places[i:j], slots=slots[i:j], found=found
+            )
             return found[:count]
 
         return joined(self._loops.over(places, find))
 
     def causes_tension(self, length: float, pressure: Array) -> bool:
         """Return True if a step of the given length along d would put any element under tension."""
-        return any(self._over_set(kernels.step_causes_tension, length, self._values, pressure))
+        _, places, slots = self._residual.contact_set
+
+        def causes_tension(i: int, j: int) -> bool:
+            return kernels.step_causes_tension(
+                length=length, direction=self._values, pressure=pressure, places=places[i:j], slots=slots[i:j]
+            )
+
+        return any(self._loops.over(places, causes_tension))
 
     def step_and_release(self, length: float, pressure: Array, width: int) -> None:
         """Take a step of given length along d, then remove elements under tension from the contact set.
@@ -154,12 +179,20 @@ class Direction:
         pressure : P, flat field
         width : length of a row of flat fields
         """
-        direction, (inside, places, slots) = self._values, self._residual.contact_set
-        neighbours = self._stencil, width, self._halfspace.load.shape[1]
+        inside, places, slots = self._residual.contact_set
 
         def step(i: int, j: int) -> Integers:
-            found, members = np.empty(j - i, np.int64), (places[i:j], slots[i:j])
-            count = kernels.step_and_find_tension(length, direction, pressure, inside, *members, i, found)
+            found = np.empty(j - i, np.int64)
+            count = kernels.step_and_find_tension(
+                length=length,
+                direction=self._values,
+                pressure=pressure,
+                inside=inside,
+                places=places[i:j],
+                slots=slots[i:j],
+                first=i,
+                released=found,
+            )
             return found[:count]
 
         released = joined(self._loops.over(places, step))
@@ -172,7 +205,17 @@ class Direction:
 
         def release(some_bands: list[Integers], first: int, last: int) -> None:
             for members in some_bands[first:last]:
-                kernels.release(direction, pressure, inside, places, slots, members, *neighbours)
+                kernels.release(
+                    direction=self._values,
+                    pressure=pressure,
+                    inside=inside,
+                    places=places,
+                    slots=slots,
+                    released=members,
+                    stencil=self._stencil,
+                    width=width,
+                    stride=self._halfspace.load.shape[1],
+                )
 
         for some_bands in filter(None, (bands[::2], bands[1::2])):
             run_blocks(partial(release, some_bands), len(some_bands), self._loops.threads, 1)
@@ -193,18 +236,19 @@ class Direction:
 
     def _sums(self, residual: PreconditionedResidual) -> Iterator[float]:
         """Return the inner products z·Kd, d·e and d·Kd over the contact set; `residual` contains e and z."""
-        fields = self._values, self._deflection, residual.preconditioned, residual.gap
-        members = residual.contact_set
-        parts = self._loops.each(kernels.direction_sums, fields, members.places, members.slots)
-        return map(sum, zip(*parts, strict=True))
+        _, places, slots = residual.contact_set
 
-    def _over_set(self, kernel: Callable[..., Any], *fixed: Any) -> Any:
-        """Call kernel(*fixed, places, slots) for every block of the contact set (see `GridLoops.each`).
+        def sums(i: int, j: int) -> tuple[float, float, float]:
+            return kernels.direction_sums(
+                direction=self._values,
+                deflection=self._deflection,
+                preconditioned=residual.preconditioned,
+                gap=residual.gap,
+                places=places[i:j],
+                slots=slots[i:j],
+            )
 
-        Returns the results of all calls, in the order of the blocks.
-        """
-        members = self._residual.contact_set
-        return self._loops.each(kernel, fixed, members.places, members.slots)
+        return map(sum, zip(*self._loops.over(places, sums), strict=True))
 
 
 class ConjugateGradients:
@@ -266,7 +310,17 @@ class ConjugateGradients:
         The last direction is overwritten.
         """
         factor = self._last.conjugacy_factor(residual) if self._last else 0.0
-        fixed = self._values, residual.preconditioned, factor
-        self._loops.each(kernels.update_search_direction, fixed, self._set.places, self._set.slots)
+        _, places, slots = self._set
+
+        def update(i: int, j: int) -> None:
+            kernels.update_search_direction(
+                direction=self._values,
+                preconditioned=residual.preconditioned,
+                factor=factor,
+                places=places[i:j],
+                slots=slots[i:j],
+            )
+
+        self._loops.over(places, update)
         self._last = Direction(self._halfspace, residual, self._stencil, self._loops)
         return self._last

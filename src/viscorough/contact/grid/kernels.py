@@ -5,8 +5,8 @@ indices of the same elements in the flattened load array of the half-space opera
 defined in contact.state.
 
 The functions have many arguments, since compiled code accepts neither keyword-only arguments nor the types of
-contact.state. The arrays that `GridLoops.each` divides into blocks are the last arguments. An argument is changed in
-place only if the docstring says so.
+contact.state. Call them by keyword: most arguments are arrays of the same type, so swapped arrays raise no error. An
+argument is changed in place only if the docstring says so.
 """
 
 import numpy as np

@@ -31,34 +31,32 @@ def joined(parts: Sequence[Integers]) -> Integers:
 
 
 class GridLoops:
-    """Loops over the fields and the contact sets of a grid, run on `threads` threads."""
+    """Loops over the fields and the contact sets of a grid, run on `threads` threads.
+
+    A loop divides an array into blocks and calls a kernel for every block. Kernels are called by keyword only, because
+    most of their arguments are arrays of the same type and length, and swapped arrays would raise no error.
+    """
 
     def __init__(self, threads: int) -> None:
         self.threads = threads
-
-    def each(self, kernel: Callable[..., Any], fixed: Sequence[Any], *arrays: Any) -> list[Any]:
-        """Divide arrays of equal length into blocks, and call kernel(*fixed, *parts) for every block.
-
-        kernel : function to call; `parts` are the slices of all arrays that belong to the block
-        fixed : arguments that are the same for all blocks
-
-        Returns the results of all calls, in the order of the blocks.
-        """
-        return self.over(arrays[0], lambda i, j: kernel(*fixed, *(array[i:j] for array in arrays)))
 
     # Loops over the elements of a contact set.
 
     def inner_product(self, left: Array, right: Array, slots: Integers) -> float:
         """Return Σ left·right over a contact set; `slots` are the indices of its elements in both arrays."""
-        return sum(self.each(kernels.inner_product, (left, right), slots))
+        return sum(self.over(slots, lambda i, j: kernels.inner_product(left=left, right=right, slots=slots[i:j])))
 
     def total(self, field: Array, places: Integers) -> float:
         """Return the sum of a flat field over the elements at `places`."""
-        return sum(self.each(kernels.total, (field,), places))
+        return sum(self.over(places, lambda i, j: kernels.total(field=field, places=places[i:j])))
 
     def largest_gap(self, gap_change: Array, initial_gap: Array, gap: Array, places: Integers) -> float:
         """Compute the gap e at `places` and store it in the flat field `gap`; return the largest |e|."""
-        return max(self.each(kernels.gap_on_set, (gap_change, initial_gap, gap), places))
+
+        def largest(i: int, j: int) -> float:
+            return kernels.gap_on_set(gap_change=gap_change, initial_gap=initial_gap, gap=gap, places=places[i:j])
+
+        return max(self.over(places, largest))
 
     # Comparison of two contacts: a loop over flat fields if both are on the same grid, else over all ranked elements.
 
@@ -141,7 +139,7 @@ class GridLoops:
         width = gap.size // (rows + 2 * BORDER)
 
         def update(i: int, j: int) -> None:
-            kernels.update_gap(length, deflection[i:j], gap[i * width :])
+            kernels.update_gap(length=length, deflection=deflection[i:j], gap=gap[i * width :])
 
         run_blocks(update, rows, self.threads, -(-BLOCK // columns))
 

@@ -165,12 +165,27 @@ class GridSolver:
         """Predict pressure, gap and contact set at a depth, by extrapolation from a contact at a smaller depth."""
         before, depth_step = contact.fields, depth - contact.reduced_depth
         inner, precision = self._workspace.inner, self._workspace.precision
-        predicted = [field_to_fill(self.initial_gap.size, dtype, inner) for dtype in (precision, precision, bool)]
-        steps = [precision(step) for step in (depth_step, depth_step * (1 - LATE * depth_step / depth))]
-        fields = before.pressure, before.tangent, before.gap_change.values, before.tangent_gap.values, self.initial_gap
-        self._loops.each(kernels.predict, steps, *(field[inner] for field in (*predicted, *fields)))
+        pressure, change, inside = (
+            field_to_fill(self.initial_gap.size, dtype, inner) for dtype in (precision, precision, bool)
+        )
+        early_step = depth_step * (1 - LATE * depth_step / depth)
+
+        def predict(i: int, j: int) -> None:
+            kernels.predict(
+                depth_step=precision(depth_step),
+                early_step=precision(early_step),
+                predicted=pressure[inner][i:j],
+                predicted_change=change[inner][i:j],
+                inside=inside[inner][i:j],
+                pressure=before.pressure[inner][i:j],
+                tangent=before.tangent[inner][i:j],
+                gap_change=before.gap_change.values[inner][i:j],
+                tangent_gap=before.tangent_gap.values[inner][i:j],
+                initial_gap=self.initial_gap[inner][i:j],
+            )
+
+        self._loops.over(pressure[inner], predict)
         rounding = before.gap_change.rounding + depth_step * before.tangent_gap.rounding
-        pressure, change, inside = predicted
         rounding += self._workspace.field_rounding * depth
         return TrialContact(pressure, BoundedField(change, rounding), inside, depth)
 

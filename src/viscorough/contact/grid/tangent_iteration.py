@@ -3,7 +3,6 @@
 import numpy as np
 
 from viscorough.basics.types import Array
-from viscorough.contact.grid import kernels
 from viscorough.contact.grid.workspace import GridWorkspace
 from viscorough.contact.preconditioner import LEAST_EIGENVALUE
 from viscorough.contact.state import BoundedField, ContactSet
@@ -33,8 +32,7 @@ def solve_tangent(grid: GridWorkspace, contact_set: ContactSet, tangent: Array, 
     accepted = max(_TANGENT_ROUNDING * grid.tolerance, grid.exact_rounding + grid.field_rounding)
     search = grid.conjugate_gradients(contact_set)
     for _ in range(grid.options.max_iterations):
-        fields = tangent_gap.values, grid.residual
-        largest = max(grid.loops.each(kernels.gather_on_set, fields, contact_set.places))
+        largest = grid.gather(tangent_gap.values, contact_set)
         residual = search.precondition(grid.residual)
         # If q solves K q = 1 only up to the residual e_q = K q − 1, the corrected sum Σq − qᵀ e_q has the error
         # e_qᵀ K⁻¹ e_q. With the preconditioner M ≈ K⁻¹, this is at most e_qᵀ M e_q / LEAST_EIGENVALUE.

@@ -34,18 +34,33 @@ def initial_tangent(
     """
     pressure, change, depth = trial.pressure, trial.change, trial.depth
     last_depth, last_rounding, tangent_rounding = 0.0, 0.0, 0.0
-    computed = 3 * (pressure, change.values)
+    # Without a last contact, the pressure of the new contact takes the place of the other two fields.
+    last_pressure = last_tangent = pressure
+    last_change = last_tangent_gap = change.values
     if last:
         before, last_depth = last.fields, last.reduced_depth
-        last_fields = before.pressure, before.gap_change.values, before.tangent, before.tangent_gap.values
-        computed = pressure, change.values, *last_fields
+        last_pressure, last_change = before.pressure, before.gap_change.values
+        last_tangent, last_tangent_gap = before.tangent, before.tangent_gap.values
         last_rounding, tangent_rounding = before.gap_change.rounding, before.tangent_gap.rounding
     # q must be zero outside the new contact set. If an element has left the contact, which is possible within the
     # tolerance, the fields of the last contact are not zero on it. Then use only the pressure of the new contact.
     only_now = last is None or loops.difference(last.fields.inside, contact_set.inside).size > 0
     combined = slice(1) if only_now else slice(3)
-    parts = loops.each(kernels.energies, ((depth, last_depth), *computed), contact_set.places)
-    products, sums = np.split(np.sum(parts, axis=0), [9])
+    places = contact_set.places
+
+    def energies(i: int, j: int) -> tuple[float, ...]:
+        return kernels.energies(
+            depths=(depth, last_depth),
+            pressure=pressure,
+            gap_change=change.values,
+            last_pressure=last_pressure,
+            last_gap_change=last_change,
+            last_tangent=last_tangent,
+            last_tangent_gap=last_tangent_gap,
+            places=places[i:j],
+        )
+
+    products, sums = np.split(np.sum(loops.over(places, energies), axis=0), [9])
     energy, sums = products.reshape(3, 3)[combined, combined], sums[combined]
     scale = 1 / np.sqrt(np.maximum(np.diag(energy), np.finfo(float).tiny))
     # Compute a least-squares solution, since the three fields may be linearly dependent.
@@ -56,8 +71,23 @@ def initial_tangent(
     # q ≈ a P + b P' + c q', with the pressure P' and the tangent q' of the last contact.
     a, b, c = weights = *solution, *[0.0] * (3 - solution.size)
     tangent, tangent_gap = (field_to_fill(pressure.size, pressure.dtype, inner) for _ in range(2))
-    fields = (field[inner] for field in (tangent, tangent_gap, *computed))
-    loops.each(kernels.combine, (weights, a * depth + b * last_depth + c - 1), *fields)
+    shift = a * depth + b * last_depth + c - 1
+
+    def combine(i: int, j: int) -> None:
+        kernels.combine(
+            weights=weights,
+            shift=shift,
+            tangent=tangent[inner][i:j],
+            tangent_gap=tangent_gap[inner][i:j],
+            pressure=pressure[inner][i:j],
+            gap_change=change.values[inner][i:j],
+            last_pressure=last_pressure[inner][i:j],
+            last_gap_change=last_change[inner][i:j],
+            last_tangent=last_tangent[inner][i:j],
+            last_tangent_gap=last_tangent_gap[inner][i:j],
+        )
+
+    loops.over(tangent[inner], combine)
     # Bound the rounding error of the combined e_q. If the new gap was predicted and not recomputed, its error contains
     # the errors of the last gap and of the last tangent gap, which partly cancel in the combination.
     depth_step = depth - last_depth

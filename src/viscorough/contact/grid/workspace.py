@@ -112,6 +112,15 @@ class GridWorkspace:
         """
         return ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._stencil, self.loops)
 
+    def gather(self, field: Array, contact_set: ContactSet) -> float:
+        """Copy a flat field on a contact set to `residual`; return the largest magnitude of the copied values."""
+        places = contact_set.places
+
+        def copy(i: int, j: int) -> float:
+            return kernels.gather_on_set(field=field, gathered=self.residual, places=places[i:j])
+
+        return max(self.loops.over(places, copy))
+
     def zeros(self, dtype: DTypeLike | None = None) -> NDArray[Any]:
         """Return a flat field of zeros.
 
@@ -154,8 +163,14 @@ class GridWorkspace:
         change : change e − g of every gap since first contact
         inside : True for elements in the set, flat field, changed in place
         """
-        fields = (field[self.inner] for field in (change.values, self.initial_gap, inside))
-        return sum(self.loops.each(kernels.add_penetrating_elements, (limit,), *fields))
+        gap_change, initial_gap, inside = change.values[self.inner], self.initial_gap[self.inner], inside[self.inner]
+
+        def add(i: int, j: int) -> int:
+            return kernels.add_penetrating_elements(
+                limit=limit, gap_change=gap_change[i:j], initial_gap=initial_gap[i:j], inside=inside[i:j]
+            )
+
+        return sum(self.loops.over(inside, add))
 
     def not_converged(self, contact_set: ContactSet, residual: float, limit: float) -> ConvergenceError:
         """Return the ConvergenceError of an iteration whose residual has not fallen below its limit."""

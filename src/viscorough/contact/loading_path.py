@@ -8,7 +8,7 @@ The curve is straight between events, so interpolation is exact. Later, levels a
 (step_control).
 
 A curve that reaches complete contact ends at the depth of complete contact, which is computed from two linear problems
-(complete_contact). This depth cannot be found by following the curve: an element that overlaps the surface by less than
+(joined_surface). This depth cannot be found by following the curve: an element that overlaps the surface by less than
 the tolerance need not join the contact, so the last elements might never join.
 """
 
@@ -433,7 +433,7 @@ class _LoadingPath:
             is_last = is_last or (contact.count < every and contact.pressure_sum >= self._until_pressure_sum)
             if is_last or not self._solver.may_be_complete(contact):
                 return contact
-            self._complete = self._solver.complete_contact()
+            self._complete = self._solver.solve_complete_contact()
             # If the contact is almost at the depth of complete contact, return the complete contact instead. Rounding
             # and residuals could otherwise put these two contacts in the wrong order.
             is_before = depth * self._control.min_ratio < self._complete.reduced_depth

@@ -19,12 +19,12 @@ import numpy as np
 
 from viscorough.basics.errors import ConvergenceError
 from viscorough.contact import dense
-from viscorough.contact.complete_contact import EXACT, joined_surface
 from viscorough.contact.dense import ContactEvents
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import GridLoops
-from viscorough.contact.grid.memory_demand import require_for_box, require_for_complete_contact, require_for_contact
+from viscorough.contact.grid.memory import require_for_box, require_for_complete_contact, require_for_contact
 from viscorough.contact.grid.solver import GridSolver
+from viscorough.contact.joined_surface import EXACT, joined_surface
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.ranking import Ranking
 from viscorough.contact.state import (
@@ -233,7 +233,7 @@ class ContactSolver:
 
         return not any(self._loops.over(fields.place, has_open_gap))
 
-    def complete_contact(self) -> ContactState:
+    def solve_complete_contact(self) -> ContactState:
         """Compute the contact at the depth where contact becomes complete, from two linear problems.
 
         Raises ConvergenceError if the linear problems cannot be solved.
@@ -242,7 +242,7 @@ class ContactSolver:
         require_for_complete_contact(self.elements, self.threads)
         residual = max(_JOINED_SHARE * self.tolerance, EXACT)
         joined = joined_surface(self.elements, residual=residual, padding=self.options.padding, threads=self.threads)
-        contact = joined.first_complete_contact(self.units)
+        contact = joined.first_contact_of_all(self.units)
         if self._grid is None:
             return contact
         return self._grid_up_to(contact.count, contact.reduced_depth).transferred(contact)

@@ -173,7 +173,7 @@ class _FullMap:
             if contact.count >= until_fraction * self._solver.elements.count:
                 self._contacts.append(_ContactValues.of(contact))
                 return min(contact.force, until_force)
-        return min(self._solver.complete_contact().force, until_force)
+        return min(self._solver.solve_complete_contact().force, until_force)
 
     def completed(self, curve: LoadingCurve, sampled: Indenter, last_force: float) -> LoadingCurve:
         """Return the curve of a sampled map with depths from the highest point of the full map, and with both ends.

@@ -29,7 +29,7 @@ from viscorough.basics.arrays import ReadOnlyArrays, real_number
 from viscorough.basics.errors import AccuracyWarning
 from viscorough.basics.summaries import unit_power, with_unit
 from viscorough.basics.types import Array, Progress
-from viscorough.contact.complete_contact import joined_surface
+from viscorough.contact.joined_surface import joined_surface
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.parallel import require_threads
@@ -69,7 +69,7 @@ _TINY = 1e-300
 class CompleteContact(ReadOnlyArrays):
     """Complete contact of an indenter, and exact values of the two integrals of its loading curve.
 
-    All values follow from two linear problems (see `complete_contact`).
+    All values follow from two linear problems (see contact.joined_surface).
 
     Attributes
     ----------

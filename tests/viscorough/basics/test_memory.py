@@ -13,8 +13,8 @@ import pytest
 
 from support.command_line import python
 from viscorough import Indenter, indent, self_affine_disc, self_affine_line
-from viscorough.contact.complete_contact import joined_surface
-from viscorough.contact.grid.memory_demand import require_for_complete_contact
+from viscorough.contact.grid.memory import require_for_complete_contact
+from viscorough.contact.joined_surface import joined_surface
 from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.ranking import all_elements
 from viscorough.viscous.integration.elements import elements_of_map
@@ -86,7 +86,7 @@ def test_complete_contact_too_large_for_the_memory_is_refused(monkeypatch):
     solver = ContactSolver(rough(np.ones((50, 50), bool)), 1e-3)
     monkeypatch.setattr(psutil, "virtual_memory", lambda: SimpleNamespace(available=0))
     with pytest.raises(MemoryError, match=r"^complete contact of a map of \(50, 50\) heights takes"):
-        solver.complete_contact()
+        solver.solve_complete_contact()
 
 
 @pytest.mark.parametrize(

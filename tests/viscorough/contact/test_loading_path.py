@@ -158,7 +158,9 @@ def test_curve_that_ends_at_a_force_does_without_complete_contact(monkeypatch, s
     disc = self_affine_disc(0.7, 33, seed=seed)
     fine = indent(disc, until_fraction=0.98)
     force = np.interp(share, fine.contact_fraction, fine.force)
-    monkeypatch.setattr(ContactSolver, "complete_contact", lambda solver: pytest.fail("complete contact was computed"))
+    monkeypatch.setattr(
+        ContactSolver, "solve_complete_contact", lambda solver: pytest.fail("complete contact was computed")
+    )
     curve = indent(disc, tolerance=0.1, until_fraction=1.0, until_force=force)
     assert curve.force[-1] >= force
     assert curve.depth[-1] == pytest.approx(fine.at_force(curve.force[-1])[0], rel=0.1)

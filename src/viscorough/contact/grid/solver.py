@@ -7,7 +7,7 @@ A solution has three steps:
    touch late are left out, because the growing contact bends the surface away from them further than predicted. (With
    the late elements, the guess would contain all elements of the solution, and further elements.)
 2. Solve for the pressure (module pressure_iteration).
-3. Solve for the tangent (module tangent_iteration), with a first guess from the module tangent_start.
+3. Solve for the tangent (module tangent).
 
 Symbols and reduced units are defined in contact.state.
 """
@@ -21,8 +21,7 @@ from viscorough.contact.border import BORDER
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import field_to_fill
 from viscorough.contact.grid.pressure_iteration import PressureIteration, TrialContact
-from viscorough.contact.grid.tangent_iteration import solve_tangent
-from viscorough.contact.grid.tangent_start import initial_tangent
+from viscorough.contact.grid.tangent import initial_tangent, solve_tangent
 from viscorough.contact.grid.workspace import GridWorkspace
 from viscorough.contact.halfspace.tiles import are_few, is_suitable, tiles_with
 from viscorough.contact.options import LATE, SolverOptions

@@ -80,6 +80,6 @@ def test_force_beyond_complete_contact_ends_the_curve_there():
 @pytest.mark.parametrize("end", [{"until_fraction": 0.5}, {"until_fraction": 0.9}, {"until_force": 20.0}])
 @pytest.mark.parametrize("tolerance", [0.1, 1e-3])
 def test_complete_contact_is_not_computed_for_curves_that_end_well_below_it(tolerance, end, monkeypatch):
-    monkeypatch.delattr(ContactSolver, "complete_contact")
+    monkeypatch.delattr(ContactSolver, "solve_complete_contact")
     for hurst in (0.2, 0.8):
         indent(self_affine_disc(hurst, 65, seed=2), tolerance=tolerance, **end)

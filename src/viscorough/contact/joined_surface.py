@@ -54,7 +54,7 @@ class JoinedSurface(NamedTuple):
         """Return the mean ⟨g⟩_q of the initial gap with the weights q."""
         return float(self.load.sum() / self.tangent.sum())
 
-    def first_complete_contact(self, units: Units) -> DenseContact:
+    def first_contact_of_all(self, units: Units) -> DenseContact:
         """Return the contact at the depth where contact becomes complete, with pressures P and tangents q.
 
         units : Units of the reduced quantities

@@ -53,13 +53,10 @@ _CONTACTS, _LAST_CONTACT = 7, 0.55
 # Largest number of contacts that are added if the first do not suffice for a decision.
 _FURTHER_CONTACTS = 6
 # A contact at lighter load is added if ln F of the lightest contact exceeds that of the lowest force by more than this.
-_LARGEST_GAP = 1.0
-# A curve is accepted if it differs from the full map by at most this share of the requested error, with the larger
-# difference of two neighbouring contacts between them.
-_CLEARLY_WITHIN = 0.7
-# After all further contacts, a curve is accepted if it differs by at most this share of the requested error, with
-# differences that are linear between the contacts. The rest is left for the forces between the contacts.
-_WITHIN = 0.8
+_LARGEST_GAP = 0.2
+# A curve is accepted if it differs from the contacts of the full map by at most this share of the requested error. The
+# rest is left for the forces between the contacts.
+_WITHIN = 0.7
 # Curves are compared at forces from this share of their last force on, if the rms height is 0.
 _LEAST_RANGE = 1e-3
 # Number of forces from which the depths of the contacts are interpolated.
@@ -199,8 +196,8 @@ class _FullMap:
         """Return the difference of a curve from the full map, and whether it is within a requested error.
 
         The difference is the relative difference of the velocity, as root mean square over the range of ln F in which
-        the requested error is defined. Further contacts are solved where they are most important, until the decision
-        does not depend on the unknown differences between the contacts.
+        the requested error is defined. It is linear between the contacts. Further contacts are solved where they matter
+        most, until the larger of two neighbouring differences could take its place without changing the decision.
         """
         largest = curve.force[-1]
         lowest = lowest_force(self._indenter, largest) or _LEAST_RANGE * largest
@@ -218,7 +215,7 @@ class _FullMap:
             linear, upper = width * (square[1:] + square[:-1]) / 2, width * np.maximum(square[1:], square[:-1])
             mean, most = (float(np.sqrt((parts.sum() + ends) / (last - first))) for parts in (linear, upper))
             lacks_light_loads = points[0] - first > _LARGEST_GAP
-            is_decided = most <= _CLEARLY_WITHIN * error and not lacks_light_loads
+            is_decided = most <= _WITHIN * error and not lacks_light_loads
             if mean > error or is_decided or further == _FURTHER_CONTACTS:
                 break
             if lacks_light_loads:
@@ -227,7 +224,7 @@ class _FullMap:
             else:
                 between = int(np.argmax(upper - linear))
                 self._solve(0.5 * (depth[between : between + 1] + depth[between + 1]))
-        return mean, most <= _CLEARLY_WITHIN * error or mean <= _WITHIN * error
+        return mean, mean <= _WITHIN * error
 
     def _solve(self, depths: Array) -> None:
         """Solve contacts of the full map at increasing depths [length], and keep their values."""

@@ -23,6 +23,7 @@ report: "workflow/report/workflow.rst"
 
 DISCS = cases.disc_cases(config)
 LINES = cases.line_cases(config)
+NESTED = cases.nested_cases(config)
 CASES = {"discs": DISCS, "lines": LINES, "measured": MEASURED}
 
 
@@ -30,6 +31,7 @@ wildcard_constraints:
     kind="discs|measured",
     case="|".join([*DISCS, *MEASURED]),
     line="|".join(LINES),
+    nested="|".join(NESTED),
     scan="|".join(MEASURED) or "no_scan",
     pool="|".join(cases.POOLS),
     batch=r"\d{4}-\d{4}",

@@ -28,7 +28,6 @@ from scipy.special import gamma as gamma_function
 
 from viscorough.law.calibrated_law import CONSTANTS
 from viscorough.reference import exponent_alpha, exponent_beta, zeta_elastic, zeta_viscous
-from viscorough_study.fits.infinite_grid import OMEGA
 from viscorough_study.fits.zeta_laws import LAST
 from viscorough_study.performance import timing
 from viscorough_study.run.paper_data import read_paper
@@ -69,7 +68,7 @@ PUBLISHED = {
         "methods other_solvers level_placement one_surface mean_accuracy sufficient_models",
     ),
     "stability": _made("failures failure_map", "failure_map failure_knobs", "campaign.json"),
-    "sizes": _made("sizes collapse", "sizes collapse collapse_curves infinite_grid"),
+    "sizes": _made("sizes local_exponent", "sizes fine_exponents fine_velocities fine_costs"),
     "large": _made("large", "large"),
     "bench": ["benchmarks.json"],
     "outside": ["outside.csv"],
@@ -111,6 +110,9 @@ def other_runs(table):
         with_seeds = dict(tuple(published_claims("docs/seeds.csv").groupby("seed")))
         runs += with_seeds.values()
         seeds = f" and also with {len(with_seeds)} other root seeds (`make seeds`, [seeds.csv](seeds.csv)),"
+    # A run that was published before a criterion changed has no verdict by the new criterion.
+    criteria = dict(zip(table["claim"], table["criterion"], strict=True))
+    runs = [run[run["claim"].map(criteria) == run["criterion"]] for run in runs]
     of_runs = [overall(run) for run in runs]
     for claim, verdict in overall(table).items():
         # A run that was published before a claim was added has no verdict on it.
@@ -159,7 +161,8 @@ slope of the curves may differ from 1 by {slopes[0]:g}, and with {narrow} % at {
 
 On the paper's grid the exponent β is within {within:.2f} of H/(1 + H) at H = 0.6 and 0.9. It is {at_04:.2f} and
 {at_01:.2f} larger than H/(1 + H) at H = 0.4 and 0.1, where the paper makes no claim. There the exponent also depends on
-the range of X, and finer grids give access to smaller X ([grid or surface](docs/verification.md#grid-or-surface)).
+the range of X, and finer grids give access to smaller X{limit}
+([grid or surface](docs/verification.md#grid-or-surface)).
 
 From H = 0.4 on, the discs follow Eq. 12 up to one constant for all H: a factor of {factors[0]} on vt/h, or of
 {factors[1]} on X. A root mean square of {residuals[0]:.0f} or {residuals[1]:.0f} % remains. At β = H/(1 + H) the
@@ -204,7 +207,10 @@ def found_numbers():
         "quantity == 'velocity' and model == 'grid' and across == 257 and value == 1e-3"
     )
     ratios = pd.read_csv(ROOT / OTHER_SOLVERS)["ratio"]
+    judged = published_claims().query("claim == 'exponent_limit'").dropna(subset="value")
+    limit = filled("β = {value:.3f} [{low:.3f}, {high:.3f}] at {case} ({verdict})", judged)
     return {
+        "limit": f": {'; '.join(limit)}" if limit else "",
         "wide": span(wide),
         "narrow": span(narrow),
         "narrow_hursts": of_hursts(narrow),
@@ -447,26 +453,23 @@ def outside_numbers():
     return markdown_table(head, filled(row + "| {reason}; {source} |", table))
 
 
-def infinite_grid():
-    """Return exponents of infinitely fine grids of docs/results/infinite_grid.csv, as a Markdown table.
-
-    The rows are by Hurst exponent, with the correction to scaling and with h over all waves of the spectrum. Brackets
-    give the smallest and the largest end of the 95 % intervals over all ranges of X. A sentence below the table counts
-    the fits in which ω is at an end of its range.
-    """
-    table = pd.read_csv(ROOT / "docs/results/infinite_grid.csv").query("law == 'corrected'")
-    table["cell"] = filled("{beta:.3f} [{ranges_low:.3f}, {ranges_high:.3f}]", table)
-    cells = table.pivot(index=["hurst", "expected"], columns=["source", "quantity"], values="cell")
-    names = [f"{source}, {INTERFACE_QUANTITIES[quantity]}" for source, quantity in cells]
-    rows = [f"| {hurst:g} | {expected:.3f} | {' | '.join(row)} |" for (hurst, expected), *row in cells.itertuples()]
-    head = f"| *H* | *H*/(1 + *H*) | {' | '.join(names)} |"
-    at_end = table["omega"].isin(OMEGA[[0, -1]])
-    reaches_end = ~at_end & ((table["omega_low"] <= OMEGA[0]) | (table["omega_high"] >= OMEGA[-1]))
-    text = (
-        f"*ω* itself is at an end of the range tried, {OMEGA[0]:g} to {OMEGA[-1]:g}, in {at_end.sum()} of "
-        f"these {len(table)} fits, and its interval reaches an end in {reaches_end.sum()} others."
-    )
-    return markdown_table(head, rows) + "\n" + paragraph(text)
+def fine_grids():
+    """Return exponents of fine grids from docs/results/fine_exponents.csv, and their costs, as two Markdown tables."""
+    table = pd.read_csv(ROOT / "docs/results/fine_exponents.csv").query("judged == 1")
+    names = ["beta", "limit"]
+    cells = {name: filled(f"{{{name}:.3f}} [{{{name}_low:.3f}}, {{{name}_high:.3f}}]", table) for name in names}
+    rows = [
+        f"| {row.hurst:g} | {INTERFACE_QUANTITIES[row.quantity]} | {row.x_low:.2g} | {row.across} | {beta} | "
+        f"{'not determined' if pd.isna(row.limit) else limit} | {row.expected:.3f} | {row.finding} |"
+        for row, beta, limit in zip(table.itertuples(), cells["beta"], cells["limit"], strict=True)
+    ]
+    head = "| *H* | quantity | decade from *X* = | elements across | *β* on this grid | limit of fine grids "
+    exponents = markdown_table(head + "| *H*/(1 + *H*) | finding |", rows)
+    costs = pd.read_csv(ROOT / "docs/results/fine_costs.csv").drop_duplicates(["hurst", "x_low"])
+    line = "| {hurst:g} | {x_low:.2g} | {base} | {half_width:.3f} | {sum_s:.0f} s | {plain_s:.0f} s "
+    line += "| {cost_ratio:.2f} |"
+    head = "| *H* | decade from *X* = | sum from grid | half-width of *β* | sum over pairs | plain average | ratio |"
+    return exponents + "\n" + markdown_table(head, filled(line, costs))
 
 
 def interface_law():
@@ -556,8 +559,8 @@ def tables():
         ("docs/performance.md", "other solvers"): other_solver_times(),
         ("docs/performance.md", "large maps"): large_maps(),
         ("docs/outside.md", "outside"): outside_numbers(),
-        ("docs/scaling.md", "infinite grid"): infinite_grid(),
         ("docs/theory.md", "prefactors"): prefactor_table(),
+        ("docs/scaling.md", "fine grids"): fine_grids(),
         ("docs/theory.md", "interface law"): interface_law(),
         ("docs/verification.md", "law errors"): law_errors(),
         ("docs/published.md", "results"): published_results(records),

@@ -143,8 +143,8 @@ def _error_in(log):
 
 
 def summary(results=Path("results"), paper=Path("resources/paper")):
-    """Return the last lines of a run: the verdicts, the times of the run and of the paper, and the page to open."""
-    claims = counted_verdicts(pd.read_csv(results / "tables/claims.csv"))
+    """Return the last lines of a run: verdicts on the paper's own claims, times of run and paper, and the page."""
+    claims = counted_verdicts(pd.read_csv(results / "tables/claims.csv"), "own")
     with opened(results / "tables/claims.nc") as file:
         trial = "; trial scale, on which verdicts mean nothing" * int(file.getncattr("trial"))
     seconds = pd.read_csv(results / "tables/rule_costs.csv")["share_s"].sum()

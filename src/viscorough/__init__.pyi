@@ -18,7 +18,6 @@ from viscorough.io.saving import load_curve as load_curve
 from viscorough.io.saving import save as save
 from viscorough.law.calibrated_law import penetration_law as penetration_law
 from viscorough.mdr import reduce as reduce
-from viscorough.media.kinds import CreepTable as CreepTable
 from viscorough.media.kinds import KelvinVoigt as KelvinVoigt
 from viscorough.media.kinds import Maxwell as Maxwell
 from viscorough.media.kinds import Newtonian as Newtonian
@@ -26,6 +25,7 @@ from viscorough.media.kinds import Prony as Prony
 from viscorough.media.kinds import Springpot as Springpot
 from viscorough.media.kinds import StandardLinearSolid as StandardLinearSolid
 from viscorough.media.load import Load as Load
+from viscorough.media.table import CreepTable as CreepTable
 from viscorough.results.contact_maps import Contact as Contact
 from viscorough.results.loading_curve import LoadingCurve as LoadingCurve
 from viscorough.results.motion import Motion as Motion

@@ -352,12 +352,9 @@ def test_conclusions_on_pages_follow_from_the_tables():
     assert (PAPER["lines"]["points"], DEFAULT["lines"]["points"]) == (4_000_000, 131_072)
     assert 3e4 < value("contact_problems", "changes of the contact") < 4.5e4
     # Grids.
-    limits = published("infinite_grid.csv").query("law == 'corrected'")
-    apart = limits[~limits["expected"].between(limits["ranges_low"], limits["ranges_high"])]
-    assert apart[["quantity", "hurst", "omega_high"]].drop_duplicates().to_numpy().tolist() == [["interface", 0.1, 1.5]]
-    assert set(limits.query("source == 'discs'")["finding"]) == {"undecided"}
-    velocity = limits.query("source == 'lines' and quantity == 'whole'")
-    assert (velocity["beta"] - velocity["expected"]).abs().max() < 0.01
+    judged = published("fine_exponents.csv").query("judged == 1 and quantity == 'whole'").set_index("hurst")
+    assert judged.index.tolist() == [0.1, 0.4, 0.6, 0.9, 1.0]
+    assert ((judged["beta_high"] - judged["beta_low"]) / 2).drop(0.1).max() < 0.04
     for window in ("X = 0.001 to 0.01", "X = 0.003 to 0.03"):
         assert trends(window)["lines", 0.1] < 0
     assert plateau().filter(like="u0_").sub(plateau()["u0"], axis=0).abs().max(axis=None) <= 0.02

@@ -12,7 +12,6 @@ from viscorough.law.calibrated_law import CONSTANTS, interface_velocity, penetra
 from viscorough_study.comparisons.histories import FORCE_CURVE, RECOVERY
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.fit_table import COLUMNS as SCALING_COLUMNS
-from viscorough_study.fits.scaling_collapse import Grid, curve_table
 
 HURST = (0.4, 0.9)
 COMBINATIONS = {
@@ -76,19 +75,6 @@ def without_region(scaling, hurst):
     return scaling.mask((scaling["hurst"] == hurst).to_numpy()[:, None] & np.isin(scaling.columns, numbers))
 
 
-def curves_of_sizes():
-    """Return the curves X^(H/(1+H)) for two Hurst exponents on two grids, and the same less X for the interface."""
-    log_x = np.log(10.0) * np.arange(-4, 0.1, 0.1)
-    grids = {
-        hurst: [
-            Grid(number, 4, log_x, (hurst / (1 + hurst) * log_x + 0.5)[None], np.full(log_x.size, 20.0), 1.0, 1.0)
-            for number in (33, 129)
-        ]
-        for hurst in HURST
-    }
-    return curve_table(grids, 1.0)
-
-
 def media_table():
     """Return a table of two media in which the velocity is a power of time."""
     media, time = ("newtonian", "standard_linear_solid"), np.geomspace(1e-3, 1e3, 13)
@@ -126,14 +112,14 @@ def interface_curves():
 
 OTHER_SOLVERS = pd.read_csv(ROOT / "resources/published/other_solvers.csv").to_dict("records")
 FROM_TABLES = {  # arguments of the figures that are drawn from tables alone
-    "collapse": (curves_of_sizes(), published("collapse"), published("infinite_grid")),
     "conventions": (published("scaling"), SHOWN),
     "direct": (published("direct"),),
     "failure_map": (published("failure_map"),),
     "failures": (published("failure_map"), published("failure_knobs")),
-    "fig4_exponent": (published("scaling"), SHOWN, (0.4, 1.0)),
+    "fig4_exponent": (published("scaling"), published("fine_exponents"), SHOWN, (0.4, 1.0)),
     "histories": (histories_table(),),
     "interface": (published("interface"), interface_curves(), published("literature"), published("periodic")),
+    "local_exponent": (published("fine_exponents"),),
     "level_placement": (published("level_placement"),),
     "mdr_lambda": (published("mdr_lambda"), published("mdr_exponents")),
     "media": (media_table(),),

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from viscorough.media.kinds import CreepTable, KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
+from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
 from viscorough.media.medium import Medium
+from viscorough.media.table import CreepTable
 
 SPRINGS_AND_DASHPOTS = {
     "newtonian": Newtonian(3.0),
@@ -27,9 +28,3 @@ class Wrapped(Medium):
 
     def creep_compliance(self, time):
         return self.inner.creep_compliance(time)
-
-    def creep_rate(self, time, *, left=False):
-        return self.inner.creep_rate(time)
-
-    def creep_integral(self, start, end):
-        return self.inner.creep_integral(start, end)

@@ -126,7 +126,7 @@ def test_report_is_made_with_the_settings_of_the_results(finished):
     assert not (finished / "report.html").exists()
     snakemake(finished, *TEST, "--report", "report.html", cores=None)
     page = (finished / "report.html").read_text()
-    for text in ("fig4_exponent.png", "4 Conventions and validation", "collapse"):
+    for text in ("fig4_exponent.png", "4 Conventions and validation", "local exponent over X"):
         assert text in page
 
 

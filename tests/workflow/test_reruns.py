@@ -68,7 +68,6 @@ FITS = {"match_lambda", "compare_zeta_laws", "judge_claims"}
 OF_CONVENTIONS = FITS | {
     "tabulate_calibration",
     "tabulate_literature",
-    "fit_collapse",
     "compare_means",
     "vary_settings",
 }
@@ -96,12 +95,7 @@ def test_changed_setting_reruns_only_the_rules_that_use_it(finished_once, tmp_pa
 def test_changed_lines_rerun_no_rule_that_uses_only_discs(finished_once, tmp_path, with_dependents):
     planned = set(plan(finished_once, *TEST, settings_file(tmp_path, "changed", lines={"points": 2048})))
     disc_rules = {"compare_zeta_laws", "compare_grids", "measure_plateaus"}
-    disc_rules |= {
-        "fit_sizes",
-        "plot_sizes",
-        "fit_collapse",
-        "plot_collapse",
-    }  # their lines have other numbers of points
+    disc_rules |= {"fit_sizes", "plot_sizes"}  # their lines have other numbers of points
     assert planned == with_dependents({"reduce_lines"}) - disc_rules | LAST
 
 

@@ -5,6 +5,7 @@ import fcntl
 import io
 import os
 import re
+import select
 import signal
 import struct
 import sys
@@ -98,11 +99,12 @@ def test_terminal_of_zero_width_shows_progress(monkeypatch):
         progress = Progress(pd.Series({"indent": 10.0, "plot": 1.0}))
         for line in STARTED.splitlines():
             progress.read(line)
-        os.set_blocking(controller, False)
-        shown = os.read(controller, 10000).decode()
+        shown = ""
+        while "0 of 41: Figure 1 |" not in shown:
+            assert select.select([controller], [], [], 60)[0], shown
+            shown += os.read(controller, 10000).decode()
         progress.bar.close()
     os.close(controller)
-    assert "0 of 41: Figure 1 |" in shown
 
 
 def test_run_continues_if_the_progress_stream_is_closed(run, tmp_path, monkeypatch):
@@ -135,8 +137,15 @@ def test_errors_of_snakemake_itself_are_shown(run, capfd):
 
 def test_summary_is_three_lines(tmp_path):
     (tmp_path / "tables").mkdir()
-    rows = [("a", "reproduced"), ("a", "undecided"), ("b", "reproduced"), ("c", "reproduced")]
-    pd.DataFrame(rows, columns=["claim", "verdict"]).assign(kind="physics").to_csv(tmp_path / "tables/claims.csv")
+    rows = [
+        ("a", "reproduced", "own"),
+        ("a", "undecided", "own"),
+        ("b", "reproduced", "own"),
+        ("c", "reproduced", "own"),
+    ]
+    rows += [("d", "not reproduced", "quoted")]
+    claims = pd.DataFrame(rows, columns=["claim", "verdict", "origin"]).assign(kind="physics")
+    claims.to_csv(tmp_path / "tables/claims.csv")
     pd.DataFrame({"share_s": [200.0, 40.0]}).to_csv(tmp_path / "tables/rule_costs.csv", index=False)
     for trial, added in ((0, ""), (1, "; trial scale, on which verdicts mean nothing")):
         xr.Dataset(attrs={"trial": trial}).to_netcdf(tmp_path / "tables/claims.nc")

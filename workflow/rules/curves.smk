@@ -36,6 +36,7 @@ rule reduce_lines:
         "results/logs/reduce_lines/{line}/{batch}.log",
     benchmark:
         "results/benchmarks/reduce_lines/{line}/{batch}.tsv"
+    priority: 1  # as for discs, so that the lines are aggregated while the last discs are indented
     conda:
         "../envs/viscorough.yaml"
     resources:
@@ -51,6 +52,30 @@ rule reduce_lines:
         "../scripts/reduce_lines.py"
 
 
+# The same discs on two neighbouring grids. They are generated in the job that indents them: a disc of 4097 x 4097
+# elements takes 134 MB.
+rule indent_nested:
+    output:
+        curves="results/curves/nested/{nested}.nc",
+    log:
+        "results/logs/indent_nested/{nested}.log",
+    benchmark:
+        "results/benchmarks/indent_nested/{nested}.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=lambda wildcards: cases.nested_memory(NESTED[wildcards.nested]),
+    params:
+        case=lambda wildcards: NESTED[wildcards.nested],
+        tolerance=config["nested_grids"]["tolerance"],
+        seed=config["seed"],
+        source=digest("indent_nested"),
+    message:
+        "Boundary elements on two neighbouring grids, {wildcards.nested}"
+    script:
+        "../scripts/indent_nested.py"
+
+
 rule aggregate_curves:
     input:
         curves=lambda wildcards: cases.pool_curves(CASES, wildcards.pool),
@@ -60,6 +85,7 @@ rule aggregate_curves:
         "results/logs/aggregate_curves/{pool}.log",
     benchmark:
         "results/benchmarks/aggregate_curves/{pool}.tsv"
+    priority: 1
     localrule: True
     conda:
         "../envs/viscorough.yaml"

@@ -91,6 +91,7 @@ use rule plot_surfaces as plot_master_curve with:
 use rule plot_surfaces as plot_exponent with:
     input:
         scaling="results/tables/scaling.csv",
+        fine_exponents="results/tables/fine_exponents.csv",
     output:
         path=report(
             "results/figures/fig4_exponent.{format}",
@@ -402,27 +403,25 @@ use rule plot_surfaces as plot_sizes with:
         "Figure: exponents on grids from coarse to fine"
 
 
-use rule plot_surfaces as plot_collapse with:
+use rule plot_surfaces as plot_local_exponent with:
     input:
-        curves="results/tables/collapse_curves.csv",
-        collapse="results/tables/collapse.csv",
-        infinite="results/tables/infinite_grid.csv",
+        exponents="results/tables/fine_exponents.csv",
     output:
         path=report(
-            "results/figures/collapse.{format}",
-            caption="../report/figures/collapse.rst",
+            "results/figures/local_exponent.{format}",
+            caption="../report/figures/local_exponent.rst",
             category=category("8 Beyond the paper"),
-            labels={"result": "collapse of the curves of all grids", "kind": "figure"},
+            labels={"result": "local exponent over X", "kind": "figure"},
         ),
     log:
-        "results/logs/plot_collapse/{format}.log",
+        "results/logs/plot_local_exponent/{format}.log",
     benchmark:
-        "results/benchmarks/plot_collapse/{format}.tsv"
+        "results/benchmarks/plot_local_exponent/{format}.tsv"
     params:
-        figure="collapse",
-        source=digest("plot", figure="collapse"),
+        figure="local_exponent",
+        source=digest("plot", figure="local_exponent"),
     message:
-        "Figure: collapse of the curves of all grids"
+        "Figure: local exponent over X"
 
 
 use rule plot_surfaces as plot_measured with:
@@ -478,7 +477,7 @@ rule figures:
                 "media",
                 "histories",
                 "sizes",
-                "collapse",
+                "local_exponent",
             ],
         ),
 
@@ -522,7 +521,7 @@ rule stability:
 
 
 rule sizes:
-    """Exponents on grids from coarse to fine."""
+    """Exponents on grids from coarse to fine, and of an infinitely fine grid."""
     input:
         "results/figures/sizes.png",
-        "results/figures/collapse.png",
+        "results/figures/local_exponent.png",

@@ -225,30 +225,35 @@ rule compare_grids:
         "../scripts/compare_grids.py"
 
 
-rule fit_collapse:
+rule fit_fine_grids:
     input:
-        discs="results/ensembles/size_discs.nc",
-        lines="results/ensembles/size_lines.nc",
+        curves=expand("results/curves/nested/{nested}.nc", nested=NESTED),
     output:
-        csv=["results/tables/collapse.csv", "results/tables/infinite_grid.csv", "results/tables/collapse_curves.csv"],
-        nc=["results/tables/collapse.nc", "results/tables/infinite_grid.nc", "results/tables/collapse_curves.nc"],
+        csv=[
+            "results/tables/fine_exponents.csv",
+            "results/tables/fine_velocities.csv",
+            "results/tables/fine_costs.csv",
+        ],
+        nc=[
+            "results/tables/fine_exponents.nc",
+            "results/tables/fine_velocities.nc",
+            "results/tables/fine_costs.nc",
+        ],
     log:
-        "results/logs/fit_collapse.log",
+        "results/logs/fit_fine_grids.log",
     benchmark:
-        "results/benchmarks/fit_collapse.tsv"
+        "results/benchmarks/fit_fine_grids.tsv"
     localrule: True
     conda:
         "../envs/viscorough.yaml"
     resources:
-        mem_mb=1000,
+        mem_mb=2000,
     params:
-        ranges=config["collapse"],
-        conventions=config["figures"],
+        elements_min=config["nested_grids"]["elements_min"],
         tolerance=paper("claims")["beta"]["tolerance"],
-        fraction_min=config["scaling"]["fraction_min"],
         seed=config["seed"],
-        source=digest("fit_collapse"),
+        source=digest("fit_fine_grids"),
     message:
-        "Collapse of the curves of all grids, and the exponent of an infinitely fine grid"
+        "Exponents of small X on fine grids, and of an infinitely fine grid"
     script:
-        "../scripts/fit_collapse.py"
+        "../scripts/fit_fine_grids.py"

@@ -36,9 +36,9 @@ rule tables:
                 "failure_knobs",
                 "sizes",
                 "grid_dependence",
-                "collapse",
-                "infinite_grid",
-                "collapse_curves",
+                "fine_exponents",
+                "fine_velocities",
+                "fine_costs",
                 "media",
             ],
             kind=["csv", "nc"],
@@ -105,7 +105,7 @@ PAGE_FIGURES = [
     "media",
     "histories",
     "sizes",
-    "collapse",
+    "local_exponent",
 ]
 # {table whose numbers the page states: rule that makes the table}
 PAGE_TABLES = {

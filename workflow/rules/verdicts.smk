@@ -16,6 +16,7 @@ rule judge_claims:
             "results/tables/methods.csv",
             "results/tables/sizes.csv",
             "results/tables/grid_dependence.csv",
+            "results/tables/fine_exponents.csv",
             "results/tables/histories.csv",
         ],
     output:

@@ -19,17 +19,12 @@ from viscorough.io.unique_keys import UniqueKeys
 from viscorough.media import kinds
 from viscorough.media.identified_medium import IdentifiedMedium
 from viscorough.media.medium import Medium
+from viscorough.media.table import CreepTable, FreeForm, RelaxationTable
 
-# Media that a YAML file may hold: {value of the key `kind`: class}. The other keys of the file are the parameters of
-# the class. The numbers of a creep table are in a separate file, which the key `file` names.
-KINDS: dict[str, Any] = {
-    "newtonian": kinds.Newtonian,
-    "maxwell": kinds.Maxwell,
-    "kelvin_voigt": kinds.KelvinVoigt,
-    "standard_linear_solid": kinds.StandardLinearSolid,
-    "prony": kinds.Prony,
-    "springpot": kinds.Springpot,
-    "creep_table": kinds.CreepTable,
+# Columns of the file of a table: {class: {name: unit}}.
+_COLUMNS: dict[Any, dict[str, str]] = {
+    CreepTable: {"time": "s", "compliance": "1/Pa"},
+    RelaxationTable: {"time": "s", "relaxation_modulus": "Pa"},
 }
 # First columns of every table of an identified medium: {name: (meaning, unit)}.
 _COMPLIANCE: dict[str, tuple[str, int | str]] = {
@@ -57,7 +52,7 @@ _LARGEST_FILE = 1_000_000  # largest size of a YAML file in bytes
 def read_medium(path: FilePath, length_unit: str = "1") -> Medium:
     """Read a medium from a YAML file with one mapping: its kind and its parameters.
 
-    The path of a creep table is relative to the folder of the YAML file.
+    The path of a table is relative to the folder of the YAML file.
 
     Parameters
     ----------
@@ -94,39 +89,40 @@ def read_medium(path: FilePath, length_unit: str = "1") -> Medium:
 def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, folder: Path = Path()) -> Medium:
     """Return the medium that a mapping describes.
 
-    mapping : the key `kind`, one of KINDS, and all parameters of this kind. Shear moduli may be replaced by Young's
-        moduli (kinds.YOUNG); `poisson` is then an optional key. For a creep table, the key `file` names a file with the
-        columns time and compliance, in s and 1/Pa unless the heading of the file states other units
+    mapping : the key `kind`, one of kinds.KINDS, and all its parameters. Shear moduli may be replaced by Young's
+        moduli (kinds.YOUNG); `poisson` is then an optional key. For a table, the key `file` names a file with the
+        columns time and compliance, or time and relaxation_modulus, in s, 1/Pa and Pa unless the heading of the file
+        states other units
     length_unit : unit of length of the indenter. If it is known, plain moduli are in Pa, viscosities in Pa s and times
         in s, and values may have units ("2 MPa"), except for a springpot. If it is "1", all values are plain numbers in
         consistent units of the user's choice
-    folder : folder in which the file of a creep table is searched if its name is relative
+    folder : folder in which the file of a table is searched if its name is relative
 
     Raises a one-line ValueError for an unknown kind or key, missing keys, and values out of range.
     """
     kind = mapping.get("kind")
-    if not isinstance(kind, str) or kind not in KINDS:
-        raise ValueError(f"kind {repr(kind)[:60]}; allowed: {', '.join(KINDS)}")
-    make = KINDS[kind]
-    needed = ["file"] if make is kinds.CreepTable else [field.name for field in dataclasses.fields(make)]
-    keys = ["file"] if make is kinds.CreepTable else list(inspect.signature(make).parameters)
+    if not isinstance(kind, str) or kind not in kinds.KINDS:
+        raise ValueError(f"kind {repr(kind)[:60]}; allowed: {', '.join(kinds.KINDS)}")
+    make = kinds.KINDS[kind]
+    needed = ["file"] if make in _COLUMNS else [field.name for field in dataclasses.fields(make)]
+    keys = ["file"] if make in _COLUMNS else list(inspect.signature(make).parameters)
     if unknown := [key for key in mapping if key != "kind" and key not in keys]:
         raise ValueError(f"unknown key {repr(unknown[0])[:60]}; allowed for {kind}: {', '.join(keys)}")
     if missing := [key for key in needed if not {key, kinds.YOUNG.get(key)} & mapping.keys()]:
         needs = [f"{key} (or {kinds.YOUNG[key]})" if kinds.YOUNG.get(key) in keys else key for key in needed]
         raise ValueError(f"lacks {', '.join(missing)}; {kind} needs {', '.join(needs)}")
-    if make is kinds.CreepTable:
-        name, columns = mapping["file"], {"time": "s", "compliance": "1/Pa"}
+    if make in _COLUMNS:
+        name, columns = mapping["file"], _COLUMNS[make]
         if not isinstance(name, str) or not name or "\0" in name:
             raise ValueError(f"file: {repr(name)[:60]}; allowed: the name of a .csv or .npy file")
-        return make(*read_columns(folder / name, "a creep table", columns, length_unit))
+        return make(*read_columns(folder / name, f"a {kind.replace('_', ' ')}", columns, length_unit))
     return make(**{key: _values(key, value, length_unit) for key, value in mapping.items() if key != "kind"})
 
 
 def creep_table_of(path: FilePath) -> Path | None:
-    """Return the path of the creep table that the YAML file of a medium names; None for other media.
+    """Return the path of the table that the YAML file of a medium names; None for other media.
 
-    The creep table need not exist.
+    The table need not exist.
     """
     name = _mapping(path).get("file")
     return Path(path).parent / name if isinstance(name, str) and name and "\0" not in name else None
@@ -171,9 +167,10 @@ def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: 
     'CreepTable'
     """
     path, medium, table = Path(path), identified.medium, check_medium_file(path)
-    (kind,) = (kind for kind, make in KINDS.items() if make is type(medium))
+    made = CreepTable if isinstance(medium, FreeForm) else type(medium)
+    (kind,) = (kind for kind, make in kinds.KINDS.items() if make is made)
     mapping: dict[str, Any] = {"kind": kind}
-    if isinstance(medium, kinds.CreepTable):
+    if isinstance(medium, FreeForm):
         tables.write(identified_to_content(identified).with_attributes(**attributes), table)
         mapping["file"] = table.name
     else:

@@ -27,21 +27,24 @@ from scipy.special import gamma
 from viscorough.basics import units
 from viscorough.basics.argument_names import spelled
 from viscorough.basics.arrays import (
-    ReadOnlyArrays,
-    increasing,
-    integral,
-    read_only,
     real_number,
-    samples,
     shown,
     unit_attribute,
 )
 from viscorough.basics.elasticity import poisson_ratio, shear_over_incompressible, young_over_shear
-from viscorough.basics.summaries import span
 from viscorough.basics.types import Array, Scalar, Several
-from viscorough.media.medium import Medium, checked_times
-from viscorough.media.spectra import RelaxationSpectrum
+from viscorough.media.load import Load
+from viscorough.media.medium import SHORTEST, Medium, checked_times
+from viscorough.media.spectra import (
+    POWER_LAW_ERROR,
+    RelaxationSpectrum,
+    Spectrum,
+    power_law_spectrum,
+    relaxation_spectrum,
+    spectrum_of,
+)
 from viscorough.media.springs_and_dashpots import SpringsAndDashpots
+from viscorough.media.table import CreepTable, RelaxationTable
 
 _NONE = np.array([])
 # SI unit of each parameter that may be given with a unit.
@@ -60,12 +63,6 @@ YOUNG = {
 }
 # Names of the parameters that are lists of numbers.
 _LISTS = ("moduli", "relaxation_times")
-# In a table of a concave J, the slope must not increase from one interval to the next. A relative increase up to this
-# number is allowed, since it may result from rounding in a table with ten digits.
-_TABLE_ROUNDING = 1e-9
-# Relative rounding error of the compliances of a table. If J almost does not grow, this error may increase the slope by
-# more than _TABLE_ROUNDING. Therefore the effect of this error on the slope is allowed, too.
-_LAST_DIGITS = 1e-14
 
 
 @dataclass(frozen=True)
@@ -357,22 +354,24 @@ class Springpot(Medium):
         if np.isinf(1 / self.modulus):
             raise ValueError(f"Springpot: modulus {self.modulus:g}; allowed: numbers whose inverse is finite")
 
+    def spectrum(self, load: Load) -> tuple[Spectrum, float]:
+        """Return springs and dashpots with the same J to 1e-8 at the times of the load, and this misfit.
+
+        They creep like the springpot from a millionth of the shortest interval between two turns of the load up to its
+        duration.
+        """
+        last = load.duration or 1.0
+        retardation = power_law_spectrum(self.modulus, self.exponent, SHORTEST * load.shortest_interval, last)
+        return spectrum_of(relaxation_spectrum(retardation), retardation), POWER_LAW_ERROR
+
     def creep_compliance(self, time: ArrayLike) -> Array:
         """Return the creep compliance J at times t ≥ 0, an array of any shape."""
         return checked_times(time) ** self.exponent / (self.modulus * gamma(1 + self.exponent))
 
-    def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
+    def creep_rate(self, time: ArrayLike) -> Array:
         """Return dJ/dt at times t ≥ 0, an array of any shape; infinite at time 0."""
         with np.errstate(divide="ignore"):
             return checked_times(time) ** (self.exponent - 1) / (self.modulus * gamma(self.exponent))
-
-    def creep_increment(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """Return J(end) − J(start) for 0 ≤ start ≤ end, to rounding also if the two times are close."""
-        return _power_increment(start, end, self.exponent) / (self.modulus * gamma(1 + self.exponent))
-
-    def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """Return the integral ∫J dt from `start` ≥ 0 to `end` ≥ `start`, to rounding."""
-        return _power_increment(start, end, 1 + self.exponent) / (self.modulus * gamma(2 + self.exponent))
 
     def relaxation_modulus(self, time: ArrayLike) -> Array:
         """Return the relaxation modulus ψ at times t ≥ 0, an array of any shape; infinite at time 0."""
@@ -384,82 +383,18 @@ class Springpot(Medium):
         return self.modulus * _power_increment(start, end, 1 - self.exponent) / gamma(2 - self.exponent)
 
 
-@dataclass(frozen=True)
-class CreepTable(ReadOnlyArrays, Medium):
-    """A medium with a measured creep compliance J, linear between the points of a table.
-
-    J is not known after the last time of the table. The arrays are copied.
-
-    Parameters
-    ----------
-    times : array
-        Times of the points, which increase from 0, shape (points,).
-    compliances : array
-        J at the times of the points, shape (points,); the first value is J(0+).
-
-    Raises
-    ------
-    ValueError
-        Unless there are two or more points with finite values, and J is 0 or more, not 0 everywhere, does not decrease,
-        and is concave. The J of every medium that relaxes is concave, so noise has to be smoothed first.
-
-    Examples
-    --------
-    >>> import viscorough
-    >>> table = viscorough.CreepTable([0.0, 1.0, 10.0], [0.2, 0.5, 0.9])
-    >>> float(table.creep_compliance(1.0))
-    0.5
-    """
-
-    times: np.ndarray
-    compliances: np.ndarray
-
-    def __repr__(self) -> str:
-        """Return a summary, without the arrays: the number of points, and the ranges of times and J."""
-        return f"CreepTable of {len(self.times)} points, t {span(self.times)}, J {span(self.compliances)}"
-
-    def __post_init__(self) -> None:
-        times = increasing("CreepTable: times", units.numbers(self.times, "s", "m", "CreepTable: times"))
-        if times[0] != 0 or times.size < 2:
-            raise ValueError("CreepTable: allowed are two or more times that start with 0")
-        values = units.numbers(self.compliances, "1/Pa", "m", "CreepTable: compliances")
-        values = samples("CreepTable: compliances", values, times)
-        for name, array in (("times", times), ("compliances", values)):
-            object.__setattr__(self, name, read_only(array))
-        slopes = self._slopes
-        if not ((slopes >= 0).all() and values[-1] > 0 and np.isfinite(slopes).all()):
-            raise ValueError("CreepTable: allowed is a compliance that starts at 0 or more, grows and never decreases")
-        rounding = _LAST_DIGITS * values[1:-1] / np.minimum(np.diff(times)[1:], np.diff(times)[:-1])
-        if (steeper := slopes[1:] > slopes[:-1] * (1 + _TABLE_ROUNDING) + rounding).any():
-            where = self.times[1 + int(np.argmax(steeper))]
-            raise ValueError(
-                f"CreepTable: J grows faster after time {where:g} than before; allowed: a concave J, as of every "
-                "medium that relaxes (smooth what was measured)"
-            )
-
-    @cached_property
-    def _slopes(self) -> Array:
-        return np.diff(self.compliances) / np.diff(self.times)
-
-    @property
-    def last_time(self) -> float:
-        return self.times[-1]
-
-    def creep_compliance(self, time: ArrayLike) -> Array:
-        """Return the creep compliance J at times t ≥ 0, an array of any shape; nan after the last point."""
-        return np.interp(checked_times(time), self.times, self.compliances, right=np.nan)
-
-    def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
-        """Return dJ/dt at times t from 0 to the last point, an array of any shape.
-
-        left : at a point of the table, return the rate before the point instead of the rate after the point
-        """
-        place = np.searchsorted(self.times, checked_times(time), side="left" if left else "right") - 1
-        return self._slopes[np.clip(place, 0, self._slopes.size - 1)]
-
-    def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """Return the integral ∫J dt from `start` ≥ 0 to `end` ≥ `start`."""
-        return integral(self.times, self.compliances, end) - integral(self.times, self.compliances, start)
+# Media that have a name in MEDIUM.yaml: {value of the key `kind`: class}. The other keys of the file are the
+# parameters of the class. The numbers of a table are in a separate file, which the key `file` names.
+KINDS: dict[str, Any] = {
+    "newtonian": Newtonian,
+    "maxwell": Maxwell,
+    "kelvin_voigt": KelvinVoigt,
+    "standard_linear_solid": StandardLinearSolid,
+    "prony": Prony,
+    "springpot": Springpot,
+    "creep_table": CreepTable,
+    "relaxation_table": RelaxationTable,
+}
 
 
 def medium_of(medium: Medium | float | str, length_unit: str = units.UNKNOWN) -> Medium:

@@ -16,6 +16,9 @@ from viscorough.basics.types import Array, Integers
 # Two times that differ by less than this share of their value count as equal. In a shorter interval, the change of a
 # load would be as small as its rounding error.
 _SAME_TIME = 1e-13
+# Two slopes of a load count as equal if their relative difference is at most _SAME_SLOPE. If a sample follows a turn of
+# the load after a time t, `shortest_interval` is at most _CLOSE · t.
+_SAME_SLOPE, _CLOSE = 1e-6, 10.0
 
 
 @dataclass(frozen=True)
@@ -97,6 +100,30 @@ class Load(ReadOnlyArrays):
     def integral(self) -> Array:
         """Return ∫F dt or ∫u dt from the first sample to each sample, shape (samples,)."""
         return integral(self.time, self.values, self.time)
+
+    @property
+    def duration(self) -> float:
+        """Return the time from the first to the last sample."""
+        return float(self.time[-1] - self.time[0])
+
+    @property
+    def shortest_interval(self) -> float:
+        """Return the shortest interval between two successive turns; 1 if the duration is 0.
+
+        At a turn, the slope of the load changes, or a step begins or ends. A sample soon after any turn also limits the
+        result: the result is at most _CLOSE times the time from the turn to the sample.
+        """
+        if self.duration == 0:
+            return 1.0
+        time, values = self.time, self.values
+        lengths = np.diff(time)
+        # The slope is nan at a step of the load.
+        slopes = np.divide(np.diff(values), lengths, out=np.full(lengths.size, np.nan), where=lengths > 0)
+        differ = ~(np.abs(np.diff(slopes)) <= _SAME_SLOPE * np.maximum(np.abs(slopes[1:]), np.abs(slopes[:-1])))
+        turns = np.concatenate([[True], differ, [True]])
+        latest = time[np.maximum.accumulate(np.where(turns, np.arange(time.size), 0))]
+        between, since = np.diff(time[turns]), time - latest
+        return float(min(between[between > 0].min(), _CLOSE * since[since > 0].min(initial=np.inf)))
 
     def with_times(self, times: ArrayLike) -> tuple[Load, Integers]:
         """Return the load with samples added at `times`, and the indices of the samples at `times`.

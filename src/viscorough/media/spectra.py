@@ -15,13 +15,15 @@ import numpy as np
 from viscorough.basics.types import Array
 
 # Relative error of the springs and dashpots that approximate a power law.
-_POWER_LAW_ERROR = 1e-10
+POWER_LAW_ERROR = 1e-8
 # Rate of the slowest element in the approximation of a power law, multiplied by the longest time. Up to the longest
-# time, the creep of slower elements is linear in time to 1e-10.
-_SLOWEST = 1e-10
+# time, the creep of slower elements is linear in time to 1e-8.
+_SLOWEST = 1e-8
 # Number of bisections of an interval that contains a zero. The first ten reduce the ratio of the ends of the interval
 # to 2. The others find the zero to rounding.
 _BISECTIONS = 80
+# Compliance of the spring and creep of the dashpot that `solvable` adds, see there.
+_STIFF_SPRING, _SLOW_DASHPOT = 1e-6, 1e-12
 # The upper bound of the largest relaxation rate is increased by this share, because of rounding.
 _MARGIN = 1e-9
 
@@ -153,9 +155,10 @@ def retardation_spectrum(relaxation: RelaxationSpectrum) -> RetardationSpectrum:
 
 
 def relaxation_spectrum(retardation: RetardationSpectrum) -> RelaxationSpectrum:
-    """Return the RelaxationSpectrum of the same medium as a RetardationSpectrum with J₀ > 0.
+    """Return the RelaxationSpectrum of the same medium as a RetardationSpectrum.
 
-    This is the inverse of `retardation_spectrum`; the medium needs a dashpot (φ > 0) or at least one element. With the
+    This is the inverse of `retardation_spectrum`. Without a spring (J₀ = 0), the medium must be Newtonian or
+    Kelvin-Voigt; with a spring, it needs a dashpot (φ > 0) or at least one element, see `solvable`. With the
     retardation rates λ_j = 1/θ_j, the relaxation rates r are the zeros of s Ĵ(s) = J₀ + φ/s + Σ J_j λ_j/(s + λ_j) at
     s = −r. One zero lies between every two neighbouring λ_j, and one above all λ_j. If φ > 0, a further zero lies below
     the smallest λ_j, and G∞ = 0. Otherwise G∞ = 1/(J₀ + Σ J_j). The moduli are
@@ -164,6 +167,10 @@ def relaxation_spectrum(retardation: RetardationSpectrum) -> RelaxationSpectrum:
     The unknown is the distance of a zero from the nearest λ_j, so that a zero that is close to a λ_j loses no digits.
     """
     instantaneous, fluidity, compliances, times = retardation
+    if instantaneous == 0:
+        relaxed = float(1 / compliances[0]) if times.size else 0.0
+        viscosity = relaxed * float(times[0]) if times.size else 1 / fluidity
+        return RelaxationSpectrum(viscosity, relaxed, np.array([]), np.array([]))
     order = np.argsort(-times)
     decays, flows = 1 / times[order], (compliances / times)[order]
     below = np.append(0.0, decays) if fluidity else decays
@@ -185,6 +192,21 @@ def relaxation_spectrum(retardation: RetardationSpectrum) -> RelaxationSpectrum:
     return RelaxationSpectrum(0.0, relaxed, 1 / slopes, 1 / rates)
 
 
+def solvable(retardation: RetardationSpectrum, first: float, last: float) -> RetardationSpectrum:
+    """Return a RetardationSpectrum to which a spring or a dashpot of a negligible compliance is added, if necessary.
+
+    Motions are computed for media with a parallel dashpot (Newtonian, Kelvin-Voigt), or with Maxwell branches, but not
+    with both. A medium with both, which has J₀ = 0, gets a spring with _STIFF_SPRING of J(`first`). A single spring
+    gets a dashpot whose creep until `last` is _SLOW_DASHPOT of J₀.
+    """
+    instantaneous, fluidity, compliances, times = retardation
+    if instantaneous == 0 and times.size + (fluidity > 0) > 1:
+        instantaneous = _STIFF_SPRING * float(fluidity * first - (compliances * np.expm1(-first / times)).sum())
+    if fluidity == 0 and times.size == 0:
+        fluidity = _SLOW_DASHPOT * instantaneous / last
+    return RetardationSpectrum(instantaneous, fluidity, compliances, times)
+
+
 def power_law_spectrum(modulus: float, exponent: float, shortest: float, longest: float) -> RetardationSpectrum:
     """Return springs and dashpots with J = t^a/(K Γ(1 + a)) at times t from `shortest` to `longest`.
 
@@ -192,11 +214,11 @@ def power_law_spectrum(modulus: float, exponent: float, shortest: float, longest
 
     The integral t^a/Γ(1 + a) = sin(πa)/π ∫(1 − exp(−t eˣ)) exp(−a x) dx is replaced by a sum at equal steps of x, with
     one Kelvin-Voigt element per step. A spring replaces all elements that are much faster than `shortest`. A dashpot
-    replaces all elements that are much slower than `longest`. Relative errors of J and ψ are about 1e-10.
+    replaces all elements that are much slower than `longest`. The relative error of J is about 1e-8.
     """
-    step = np.pi**2 / -np.log(_POWER_LAW_ERROR)
+    step = np.pi**2 / -np.log(POWER_LAW_ERROR)
     start = np.log(_SLOWEST / longest)
-    logarithms = np.arange(start, np.log(-np.log(_POWER_LAW_ERROR) * 2 / shortest) + step, step)
+    logarithms = np.arange(start, np.log(-np.log(POWER_LAW_ERROR) * 2 / shortest) + step, step)
     weight = np.sin(np.pi * exponent) / np.pi * step / modulus
     faster = np.exp(-exponent * (logarithms[-1] + step)) / -np.expm1(-exponent * step)
     slower = np.exp((1 - exponent) * (logarithms[0] - step)) / -np.expm1(-(1 - exponent) * step)

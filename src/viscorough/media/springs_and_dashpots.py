@@ -7,8 +7,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscorough.basics.types import Array
+from viscorough.media.load import Load
 from viscorough.media.medium import Medium, checked_times
-from viscorough.media.spectra import RelaxationSpectrum, RetardationSpectrum, retardation_spectrum
+from viscorough.media.spectra import (
+    RelaxationSpectrum,
+    RetardationSpectrum,
+    Spectrum,
+    retardation_spectrum,
+    spectrum_of,
+)
 
 
 class SpringsAndDashpots(Medium):
@@ -22,6 +29,10 @@ class SpringsAndDashpots(Medium):
     def retardation(self) -> RetardationSpectrum:
         return retardation_spectrum(self.relaxation)
 
+    def spectrum(self, load: Load) -> tuple[Spectrum, float]:
+        """Return the springs and dashpots of the medium, and a misfit of 0."""
+        return spectrum_of(self.relaxation, self.retardation), 0.0
+
     def creep_compliance(self, time: ArrayLike) -> Array:
         """Return the creep compliance J at times t ≥ 0, an array of any shape. At time 0 this is J(0+)."""
         time = checked_times(time)
@@ -29,19 +40,11 @@ class SpringsAndDashpots(Medium):
         delayed = -(compliances * np.expm1(-np.divide.outer(time, times))).sum(axis=-1)
         return instantaneous + np.multiply(fluidity, time) + delayed
 
-    def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
+    def creep_rate(self, time: ArrayLike) -> Array:
         """Return dJ/dt at times t ≥ 0, an array of any shape."""
         time = checked_times(time)
         _, fluidity, compliances, times = self.retardation
         return fluidity + (compliances / times * np.exp(-np.divide.outer(time, times))).sum(axis=-1)
-
-    def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """Return the integral ∫J dt from `start` ≥ 0 to `end` ≥ `start`."""
-        instantaneous, fluidity, compliances, times = self.retardation
-        length, before = np.subtract(end, start), np.divide.outer(start, times)
-        x = np.divide.outer(length, times)
-        delayed = compliances * times * (x + np.expm1(-x) + np.expm1(-before) * np.expm1(-x))
-        return (instantaneous + 0.5 * fluidity * np.add(start, end)) * length + delayed.sum(axis=-1)
 
     def relaxation_modulus(self, time: ArrayLike) -> Array:
         """Return the relaxation modulus ψ at times t ≥ 0, an array of any shape. At time 0 this is ψ(0+).

@@ -28,10 +28,11 @@ from scipy.special import gamma
 
 from viscorough.basics.arrays import integral
 from viscorough.basics.types import Array, Integers
-from viscorough.media.creep_response import branch_states, by_states, by_sums
-from viscorough.media.kinds import CreepTable, Prony, Springpot
+from viscorough.media.creep_response import branch_states, creep_response
+from viscorough.media.kinds import Prony, Springpot
 from viscorough.media.load import Load
 from viscorough.media.spectra import zero_of_increasing
+from viscorough.media.table import FreeForm, free_form_of_creep
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.viscous.non_negative import extremes, non_negative
 from viscorough.viscous.record_fit import (
@@ -96,13 +97,12 @@ def fit_growing_depth(
         low, high = record.intervals(coefficients, responses, bend, values, distance_of(scatter, freedom))
         limit_early_times(low, high, time, first_lag(load, lags))
     if kind == "prony":
-        medium: CreepTable | Prony | Springpot = spectrum.prony(load.values[place].max())
+        medium: FreeForm | Prony | Springpot = spectrum.prony(load.values[place].max())
     elif kind == "springpot":
         medium = _springpot(record, load, place)
     else:
-        medium = CreepTable(time, compliance)
-    spectra = medium.retardation
-    creep = (by_sums(medium, load) if spectra is None else by_states(spectra, load))[0][place]
+        medium = free_form_of_creep(time, compliance)
+    creep = creep_response(medium.spectrum(load)[0], load)[place]
     misfit = float(np.sqrt(np.mean(record.residual(creep) ** 2)))
     (low, shift_low), (high, shift_high) = (np.split(ends, [time.size]) for ends in (low, high))
     return RecordFit(
@@ -345,7 +345,7 @@ def _springpot(record: _Record, load: Load, place: Integers) -> Springpot:
 
     def response(exponent: float) -> Array:
         # Creep response of J = t^exponent at the time of each measurement.
-        return by_sums(Springpot(1 / gamma(1 + exponent), exponent), load)[0][place, None]
+        return creep_response(Springpot(1 / gamma(1 + exponent), exponent).spectrum(load)[0], load)[place, None]
 
     def squares(exponent: float) -> float:
         column = response(exponent)

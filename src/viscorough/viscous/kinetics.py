@@ -9,15 +9,13 @@ where u_el(F/G) and k/G are depth and stiffness of the loading curve. In a visco
 3). Eqs. 7 to 9 of the paper contain an additional factor 1/Γ(2−α), because they apply a Laplace transform to the
 relation u(F/G), which is not linear.
 
-For every other history, the loading curve is replaced by an equivalent row of unilateral springs (docs/theory.md):
+For every history, the motion is computed in four steps:
 
-1. The module `springs` computes the gaps and stiffnesses of the springs from the curve.
-2. If the medium consists of springs and dashpots, the module `unilateral` computes the motion of the springs exactly. A
-   springpot is replaced by springs and dashpots that have the same creep within 1e-10, from a millionth of the shortest
-   interval between two turns of the history (changes of its slope) up to its whole duration. In every other medium, the
-   module `unilateral_sums` computes the motion by steps in time.
-3. At times when the contact is as large as ever before, depth and velocity follow from Φ and the interpolated curve.
-   They then have no error from the finite number of springs.
+1. The loading curve becomes an equivalent row of unilateral springs (module `row`; docs/theory.md).
+2. The medium becomes springs and dashpots with the same creep (`Medium.spectrum`).
+3. The motion of the row under the load is computed exactly, from event to event (module `move`).
+4. At times when the contact is as large as ever before, the values of the row are replaced by values of the
+   interpolated curve, which have no error from the finite number of springs (module `refine`).
 """
 
 from __future__ import annotations
@@ -34,15 +32,16 @@ from viscorough.basics.arrays import increasing
 from viscorough.basics.errors import AccuracyWarning, ConvergenceError
 from viscorough.basics.types import Array, Integers
 from viscorough.media.creep_response import creep_response
-from viscorough.media.kinds import Springpot, medium_of
+from viscorough.media.kinds import medium_of
 from viscorough.media.load import Load
 from viscorough.media.medium import Medium
-from viscorough.media.spectra import power_law_spectrum, relaxation_spectrum, spectrum_of, zero_of_increasing
+from viscorough.media.spectra import Spectrum, zero_of_increasing
 from viscorough.results.loading_curve import LoadingCurve, check_curve
 from viscorough.results.motion import Motion
-from viscorough.viscous.springs import ROUNDING, RowOfSprings, row_of_springs
-from viscorough.viscous.unilateral import BEYOND, INFINITE, RESTLESS, RowMotion, move_row
-from viscorough.viscous.unilateral_sums import move_row_by_sums
+from viscorough.viscous.crossing import first_decrease
+from viscorough.viscous.move import BEYOND, INFINITE, RESTLESS, RowMotion, move_row
+from viscorough.viscous.refine import refine
+from viscorough.viscous.row import ROUNDING, RowOfSprings, row_of_springs
 
 # Time that counts as infinite: the end of the creep is searched for only before this time.
 _LATEST = 1e300
@@ -51,18 +50,11 @@ _LATEST = 1e300
 # from time 0 on, or always below the last level, the times begin or end when the response differs from its first or
 # last value by the share _EARLY of its range.
 _SPREAD, _EARLY = 100, 1e-3
-# A springpot is replaced by springs and dashpots. They creep like the springpot only at times longer than this share of
-# the shortest interval between two turns of the history (changes of its slope).
-_SHORTEST = 1e-6
-# Two slopes of a history count as equal if their relative difference is at most _SAME_SLOPE. If a sample follows a turn
-# of the history after a time t, `_shortest_interval` returns at most _CLOSE · t.
-_SAME_SLOPE, _CLOSE = 1e-6, 10.0
+# A medium whose springs and dashpots miss its compliance by more than this share gives a warning.
+_REPORTED_MISFIT = 0.01
 # A motion that depends on the unknown curve before its first level (computed point) gives a warning if the force at
 # this level is more than this share of the largest elastic force.
 _UNKNOWN_SHARE = 1e-2
-# The springs that replace the contact have exactly the force of the loading curve at up to this number of depths, at
-# which the history turns.
-_MOST_TURNS = 200
 
 
 def kinetics(
@@ -121,8 +113,7 @@ def kinetics(
     -----
     AccuracyWarning
         If the motion depends on the curve before its first level, where the curve is taken to be a power law. Also if
-        steps in time do not reach the tolerance; they are used for media that neither consist of springs and dashpots
-        nor are a Springpot.
+        the springs and dashpots that represent a table or a medium of a user miss its compliance by more than 1 %.
 
     Examples
     --------
@@ -146,50 +137,47 @@ def kinetics(
         raise ValueError(f"{name}: up to {duration:g} after the beginning of the load; {allowed}")
     if load.by_depth:
         _check_depths(curve, load.values[: place[-1] + 1])
-    creep = None
-    if not load.by_depth and medium.retardation is None:
-        creep = creep_response(medium, load)
-    if creep is not None and not creep.receding_from < load.time[-1]:
-        row, needed = row_of_springs(curve), slice(int(place[-1]) + 1)
-        _check_creep(curve, row, load.time[needed], creep.creep[needed])
-        _check_overflow(load, creep.creep[needed])
-        moved = _growing(curve, row, load, creep.creep)
-    else:
-        row, moved = row_motion(curve, medium, load, int(place[-1]))
+    row = row_of_springs(curve, load)
+    spectrum, misfit = medium.spectrum(load)
+    moved = row_motion(curve, row, spectrum, load, int(place[-1]))
     _warn_of_the_beginning(curve, row, load, moved)
-    values = _without_discretisation(curve, medium, row, load, moved, creep)
-    if medium.retardation is None and not medium.creep_compliance(0.0) > 0:
-        _at_steps_of_soft_media(medium, load, *values)
-    depths, forces, velocity, fraction = (each[place] for each in values)
-    forces = forces * units.square_metres(curve.length_unit)
-    receding_from = _receding_from(medium, load) if creep is None else creep.receding_from
+    _warn_of_the_misfit(medium, misfit)
+    refined = refine(curve, row, medium, spectrum, load, moved)
+    receding_from = _receding_from(spectrum, load)
     if receding_from >= load.time[place[-1]]:
         receding_from = np.nan
-    return Motion(load.time[place], depths, forces, velocity, fraction, curve.length_unit, float(receding_from))
+    force = refined.force[place] * units.square_metres(curve.length_unit)
+    depth, velocity, fraction = refined.depth[place], refined.velocity[place], refined.contact_fraction[place]
+    return Motion(load.time[place], depth, force, velocity, fraction, curve.length_unit, receding_from)
 
 
-def row_motion(curve: LoadingCurve, medium: Medium, load: Load, last: int = -1) -> tuple[RowOfSprings, RowMotion]:
-    """Return the row of springs that has the force of a curve, and its motion under a load in consistent units.
+def row_motion(curve: LoadingCurve, row: RowOfSprings, spectrum: Spectrum, load: Load, last: int = -1) -> RowMotion:
+    """Return the motion of the row of springs of a curve under a load in consistent units.
 
     last : index of the last sample of the load at which the motion is needed
 
     Raises ValueError if the motion ends before this sample.
     """
-    row, spectra = row_of_springs(curve, _turning_depths(load)), _spectra(medium, load)
-    if spectra is None:
-        moved = move_row_by_sums(row, medium, load)
-        ended, until = BEYOND, float(load.time[np.argmax(np.isnan(moved.depth))])
-    else:
-        law = spectrum_of(*spectra)
-        row_and_law = row.gap, row.stiffness, row.limit, law
-        moved, ended, until = move_row(*row_and_law, load.time, load.values, by_depth=load.by_depth)
-    if ended == RESTLESS and np.isfinite(moved.depth[~np.isnan(moved.depth)]).all():
-        raise ConvergenceError(f"kinetics: the contact does not settle at time {until:g}; other samples may help")
-    if ended not in (BEYOND, INFINITE):
+    moved = move_row(row.gap, row.stiffness, row.limit, spectrum, load.time, load.values, by_depth=load.by_depth)
+    if moved.ended == RESTLESS and np.isfinite(moved.depth[~np.isnan(moved.depth)]).all():
+        raise ConvergenceError(f"kinetics: the contact does not settle at time {moved.until:g}; other samples may help")
+    if moved.ended not in (BEYOND, INFINITE):
         _check_overflow(load, moved.depth[last] + moved.force[last])
     if np.isnan(moved.depth[last]):
-        _refuse(curve, row, medium, load, ended, until)
-    return row, moved
+        _refuse(curve, row, spectrum, load, moved)
+    return moved
+
+
+def _receding_from(spectrum: Spectrum, load: Load) -> float:
+    """Return the first time from which the contact recedes; nan if it never does.
+
+    Under a force, the contact recedes when the creep response decreases. Under a prescribed depth, it recedes when a
+    depth above zero decreases.
+    """
+    if not load.by_depth:
+        return float(first_decrease(spectrum, load.time, load.values))
+    falls = (np.diff(load.values) < 0) & (load.values[:-1] > 0)
+    return float(load.time[np.argmax(falls)]) if falls.any() else np.nan
 
 
 def _load_name(quantity: str) -> str:
@@ -213,30 +201,6 @@ def _check_overflow(load: Load, values: ArrayLike) -> None:
             f"{_load_name(kind)}: depths or forces overflow in this medium; allowed: forces, depths and moduli whose "
             "ratios are ordinary numbers; check their units"
         )
-
-
-def _turning_depths(load: Load) -> Array:
-    """Return the depths at which a prescribed depth turns, steps or is held; at most the _MOST_TURNS deepest of them.
-
-    For a prescribed force, the array is empty.
-    """
-    if not load.by_depth:
-        return np.array([])
-    moves = np.sign(np.diff(load.values, prepend=0.0))
-    turns = np.append(moves[:-1] * moves[1:] <= 0, True) | (np.diff(load.time, append=np.inf) == 0)
-    return np.unique(load.values[turns])[-_MOST_TURNS:]
-
-
-def _receding_from(medium: Medium, load: Load) -> float:
-    """Return the first time from which the contact recedes; nan if it never does.
-
-    Under a force, the contact recedes when the creep response decreases. Under a prescribed depth, it recedes when a
-    depth above zero decreases.
-    """
-    if not load.by_depth:
-        return creep_response(medium, load).receding_from
-    falls = (np.diff(load.values) < 0) & (load.values[:-1] > 0)
-    return float(load.time[np.argmax(falls)]) if falls.any() else np.nan
 
 
 def _load_and_places(curve: LoadingCurve, medium: Medium, force: Any, depth: Any, times: Any) -> tuple[Load, Integers]:
@@ -269,7 +233,7 @@ def _load_and_places(curve: LoadingCurve, medium: Medium, force: Any, depth: Any
             constant = True
             load, times = _constant(curve, medium, name, float(values), times)
     first, samples = 0, load.time.size
-    if load.by_depth and not constant and not medium.creep_compliance(0.0) > 0:
+    if load.by_depth and not constant and medium.creep_compliance(0.0) == 0:
         load = load.with_first_ramp()
         first = load.time.size - samples
     if times is None:
@@ -310,9 +274,9 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
     about the time when the creep reaches the last level or has almost ended. If the medium responds elastically at time
     0, time 0 precedes them.
     """
-    limit = min(medium.last_time, _LATEST)
+    earliest, limit = medium.first_time, min(medium.last_time, _LATEST)
     with np.errstate(over="ignore"):
-        at_once, at_last = force * medium.creep_compliance(np.array([0.0, limit]))
+        at_once, at_last = force * medium.creep_compliance(np.array([earliest, limit]))
     first, last = curve.force[0] if curve.force.size > 1 else _EARLY * curve.force[-1], curve.force[-1]
     if not (at_once < last and at_last > first):
         raise ValueError(
@@ -323,46 +287,13 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
     end = last if at_last >= last else at_last - _EARLY * (at_last - max(first, at_once))
     target = np.array([start, end]) / force
     with np.errstate(all="ignore"):
-        ends = zero_of_increasing(lambda t: medium.creep_compliance(t) - target, np.finfo(float).tiny, limit)
+        smallest = max(earliest, np.finfo(float).tiny)
+        ends = zero_of_increasing(lambda t: medium.creep_compliance(t) - target, smallest, limit)
     if not (0 < ends[0] < ends[1] < _LATEST / 2):
         raise ValueError(f"the times from {ends[0]:g} to {ends[1]:g} overflow; closer force and medium are allowed")
     times = np.geomspace(ends[0], ends[1], _SPREAD)
-    springs = at_once > 0 and np.isfinite(curve.at_force(at_once)).all()
+    springs = earliest == 0 and at_once > 0 and np.isfinite(curve.at_force(at_once)).all()
     return np.append(0.0, times) if springs else times
-
-
-def _spectra(medium: Medium, load: Load) -> Any:
-    """Return the relaxation and the retardation spectrum of a medium; None if it has no such spectra.
-
-    The spectra of a Springpot are those of the springs and dashpots that replace it under this load.
-    """
-    if medium.relaxation is not None:
-        return medium.relaxation, medium.retardation
-    if not isinstance(medium, Springpot):
-        return None
-    duration = load.time[-1] - load.time[0]
-    if duration == 0:
-        return None
-    shortest = _SHORTEST * _shortest_interval(load)
-    retardation = power_law_spectrum(medium.modulus, medium.exponent, shortest, duration)
-    return relaxation_spectrum(retardation), retardation
-
-
-def _shortest_interval(load: Load) -> float:
-    """Return the shortest interval between two successive turns of a history.
-
-    At a turn, the slope of the history changes, or a step begins or ends. A sample soon after any turn also limits the
-    result: the result is at most _CLOSE times the time from the turn to the sample.
-    """
-    time, values = load.time, load.values
-    lengths = np.diff(time)
-    # The slope is nan at a step of the load.
-    slopes = np.divide(np.diff(values), lengths, out=np.full(lengths.size, np.nan), where=lengths > 0)
-    differ = ~(np.abs(np.diff(slopes)) <= _SAME_SLOPE * np.maximum(np.abs(slopes[1:]), np.abs(slopes[:-1])))
-    turns = np.concatenate([[True], differ, [True]])
-    latest = time[np.maximum.accumulate(np.where(turns, np.arange(time.size), 0))]
-    between, since = np.diff(time[turns]), time - latest
-    return float(min(between[between > 0].min(), _CLOSE * since[since > 0].min(initial=np.inf)))
 
 
 def _check_depths(curve: LoadingCurve, depths: Array) -> None:
@@ -387,123 +318,31 @@ def _check_creep(curve: LoadingCurve, row: RowOfSprings, times: Array, creep: Ar
         )
 
 
-def _refuse(curve: LoadingCurve, row: RowOfSprings, medium: Medium, load: Load, ended: int, until: float) -> None:
-    """Raise the ValueError that states why a motion ended early.
-
-    ended : how the motion ended: BEYOND or INFINITE
-    until : when the motion ended
-    """
-    if ended == INFINITE:
+def _refuse(curve: LoadingCurve, row: RowOfSprings, spectrum: Spectrum, load: Load, moved: RowMotion) -> None:
+    """Raise the ValueError that states why a motion ended early."""
+    if moved.ended == INFINITE:
         raise ValueError(
-            f"{_load_name('depth')}: steps into the surface at time {until:g}, which takes an infinite force here; "
-            "allowed: ramps"
+            f"{_load_name('depth')}: steps into the surface at time {moved.until:g}, which takes an infinite force "
+            "here; allowed: ramps"
         )
     if not load.by_depth:
-        _check_creep(curve, row, load.time, creep_response(medium, load).creep)
+        _check_creep(curve, row, load.time, creep_response(spectrum, load))
     raise ValueError(
-        f"{_load_name('depth' if load.by_depth else 'force')}: at time {until:g} the contact grows beyond the curve's "
-        f"last level; allowed: depths up to {curve.depth[-1]:g}; indent further, with {argument('until_fraction', 1)}"
+        f"{_load_name('depth' if load.by_depth else 'force')}: at time {moved.until:g} the contact grows beyond the "
+        f"curve's last level; allowed: depths up to {curve.depth[-1]:g}; indent further, with "
+        f"{argument('until_fraction', 1)}"
     )
 
 
-def _growing(curve: LoadingCurve, row: RowOfSprings, load: Load, creep: Array) -> RowMotion:
-    """Return the motion of a row of springs whose contact only grows, from the creep response at each sample."""
-    depth = _at_elastic_force(curve, row, creep)[0]
-    in_contact = np.searchsorted(row.gap, np.nan_to_num(depth), side="left")
-    nothing = np.zeros(load.time.size)
-    always = np.ones(load.time.size, bool)
-    return RowMotion(depth, load.values, nothing, in_contact, creep, always, np.nan, nothing, nothing)
-
-
-def _at_elastic_force(curve: LoadingCurve, row: RowOfSprings, creep: Array) -> tuple[Array, Array]:
-    """Return depth and stiffness k/G of the loading curve at the force F/G = `creep`.
-
-    After complete contact, the depth continues along the tangent of the last level (computed point).
-
-    creep : creep response Φ
-    """
-    first, last = curve.force[0], curve.force[-1]
-    # Rounding must not move a force at the first or last computed point out of the range of the curve.
-    inside = np.where(np.abs(creep - first) <= ROUNDING * first, first, np.clip(creep, 0.0, last))
-    depth, stiffness = curve.at_force(inside)
-    beyond = creep > last * (1 + ROUNDING)
-    return np.where(beyond, depth + (creep - last) / row.stiffness.sum(), depth), stiffness
-
-
-def _without_discretisation(
-    curve: LoadingCurve, medium: Medium, row: RowOfSprings, load: Load, moved: RowMotion, creep: Any
-) -> tuple[Array, Array, Array, Array]:
-    """Return depth, force, velocity and contact fraction at the samples of the load.
-
-    While the contact is as large as ever before, these values follow from the interpolated curve. Otherwise they follow
-    from the motion `moved` of the row of springs.
-
-    creep : CreepResponse if a force acts on a medium that does not consist of springs and dashpots; otherwise None
-    """
-    depth, force, velocity = moved.depth.copy(), moved.force.copy(), moved.velocity.copy()
-    count = moved.in_contact
-    front = np.where(count > 0, row.gap[np.maximum(count, 1) - 1], 0.0)
-    if load.by_depth:
-        front = np.where(moved.largest, depth, front)
-        viscosity = 0.0 if medium.relaxation is None else medium.relaxation.viscosity
-        if viscosity > 0:
-            # The force of a dashpot is η k u', with the stiffness k. The total stiffness of the springs jumps when a
-            # spring touches, so replace it by the stiffness of the curve.
-            sums = np.append(0.0, np.cumsum(row.stiffness))[count]
-            excess = viscosity * velocity * (curve.at_depth(np.maximum(depth, 0.0))[1] - sums)
-            corrected = moved.largest & (force > 0) & np.isfinite(excess)
-            force[corrected] = np.maximum(force + excess, 0.0)[corrected]
-    else:
-        elastic = np.maximum(moved.deflection, 0.0)
-        if creep is not None:
-            exact = load.time <= np.nan_to_num(creep.receding_from, nan=np.inf)
-            elastic[exact] = creep.creep[exact]
-        corrected = moved.largest & np.isfinite(moved.depth)
-        if creep is not None:
-            corrected |= exact
-        at_curve, stiffness = _at_elastic_force(curve, row, elastic)
-        sums = np.append(0.0, np.cumsum(row.stiffness))[count]
-        rate = velocity * sums
-        if creep is not None:
-            rate[exact] = creep.rate[exact]
-        with np.errstate(invalid="ignore"):
-            # An indenter at rest has the velocity 0, even before the first computed point of the curve, where the
-            # stiffness is nan.
-            at_rate = np.where(rate == 0, 0.0, rate / stiffness)
-        depth, velocity = np.where(corrected, at_curve, depth), np.where(corrected, at_rate, velocity)
-    unknown = (count > 0) & (front > 0) & (front < row.first_depth) & (force > 0)
-    if load.by_depth:
-        force[unknown] = np.nan
-    else:
-        unknown &= ~corrected
-        depth[unknown] = velocity[unknown] = np.nan
-    fraction = np.where(count > 0, row.contact_fraction[np.maximum(count, 1) - 1], 0.0)
-    if not load.by_depth:
-        # Under no force the indenter rests on the first spring, which does not count as contact.
-        fraction[(load.values == 0) & (count <= 1)] = 0.0
-    return depth, force, velocity, fraction
-
-
-def _at_steps_of_soft_media(
-    medium: Medium, load: Load, depth: Array, force: Array, velocity: Array, fraction: Array
-) -> None:
-    """Correct, in place, the motion at steps of the load in a medium with J(0) = 0 that has no springs and dashpots.
-
-    Such a medium does not move at a step of the force. A step of the depth into the surface needs an infinite force,
-    and after a step out of the surface there is no force.
-    """
-    with np.errstate(over="ignore"):
-        unbounded = np.isinf(medium.creep_rate(0.0))
-    jumps = np.diff(load.values, prepend=0.0)
-    steps = np.flatnonzero((np.diff(load.time, prepend=load.time[0]) == 0) & (jumps != 0))
-    for k in steps:
-        if load.by_depth:
-            force[k] = np.inf if jumps[k] > 0 and fraction[k] > 0 else 0.0
-            fraction[k] = fraction[k] if jumps[k] > 0 else 0.0
-        else:
-            depth[k], fraction[k] = (depth[k - 1], fraction[k - 1]) if k else (0.0, 0.0)
-            if unbounded:
-                velocity[k] = np.copysign(np.inf, jumps[k])
+def _warn_of_the_misfit(medium: Medium, misfit: float) -> None:
+    """Warn if the springs and dashpots of a medium miss its compliance noticeably."""
+    if misfit > _REPORTED_MISFIT:
+        warnings.warn(
+            f"{caller('kinetics')}the motion is computed for springs and dashpots that miss the given "
+            f"{type(medium).__name__} by up to {100 * misfit:.2g} %, as after a fit of a table with noise",
+            AccuracyWarning,
+            stacklevel=3,
+        )
 
 
 def _warn_of_the_beginning(curve: LoadingCurve, row: RowOfSprings, load: Load, moved: RowMotion) -> None:
@@ -517,7 +356,7 @@ def _warn_of_the_beginning(curve: LoadingCurve, row: RowOfSprings, load: Load, m
         low, high = np.minimum(load.values[1:], load.values[:-1]), np.maximum(load.values[1:], load.values[:-1])
         depends = ((np.diff(load.time) > 0) & (low < row.first_depth) & (high > 0)).any()
     else:
-        depends = np.isfinite(moved.receding_from)
+        depends = np.isfinite(moved.released_from)
     share = curve.force[0] / max(np.nanmax(moved.deflection), np.finfo(float).tiny)
     if depends and share > _UNKNOWN_SHARE:
         warnings.warn(

@@ -34,16 +34,17 @@ from viscorough.media.creep_response import creep_response
 from viscorough.media.kinds import medium_of
 from viscorough.media.load import Load, force_load
 from viscorough.media.medium import Medium
+from viscorough.media.spectra import Spectrum
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter
 from viscorough.viscous.kinetics import row_motion
+from viscorough.viscous.row import row_of_springs
 
 # An interval between two elastic contacts is short if the relative increase of the force in the interval is at most
 # _SHORT times the tolerance of the contacts. A tolerance below _FINEST counts as _FINEST. In a short interval, the
 # difference of the two pressures would consist of their errors.
 _SHORT, _FINEST = 10.0, 1e-6
-# The loading curve is computed up to this multiple of the largest elastic force of the history. The motion by steps in
-# time (viscous.unilateral_sums) exceeds the largest force as long as its steps are coarse.
+# The loading curve is computed up to this multiple of the largest elastic force of the history.
 _BEYOND = 1.1
 # The state just after a time is computed slightly later. The delay is this share of the time since the start of the
 # load.
@@ -111,8 +112,10 @@ def pressure_at(
     if not start < time <= load.time[-1]:
         raise ValueError(f"time: {time}; allowed: within those of the load, above {start:g}, up to {load.time[-1]:g}")
     load = _up_to(load, time)
-    curve = _curve(indenter, medium, load, tolerance)
-    row, moved = row_motion(curve, medium, load)
+    spectrum, _ = medium.spectrum(load)
+    curve = _curve(indenter, spectrum, load, tolerance)
+    row = row_of_springs(curve, load)
+    moved = row_motion(curve, row, spectrum, load)
     total = np.where(np.isnan(indenter.heights), np.nan, 0.0)
     count = int(moved.in_contact[-1])
     if count == 0:
@@ -122,8 +125,7 @@ def pressure_at(
     carried, stiffness = moved.pressures[:count], np.cumsum(row.stiffness)[:count]
     elastic = np.append(0.0, np.cumsum(stiffness[:-1] * np.diff(row.gap[:count])))
     parts = stiffness[:-1] * -np.diff(carried)  # parts of the force F, between neighbouring springs
-    has_dashpot = medium.relaxation is not None and medium.relaxation.viscosity > 0
-    nodes = np.unique([0, count - 1]) if has_dashpot else _nodes(elastic, parts, contacts)
+    nodes = np.unique([0, count - 1]) if spectrum.viscosity > 0 else _nodes(elastic, parts, contacts)
     # Compute the contacts to half of the tolerance. The other half is left for the correction of the pressures to the
     # exact force.
     pressure = _PressureSum(indenter, tolerance / 2)
@@ -205,7 +207,7 @@ def _up_to(load: Load, time: float) -> Load:
     return Load(longer.time[until], **{"depth" if load.by_depth else "force": longer.values[until]})
 
 
-def _curve(indenter: Indenter, medium: Medium, load: Load, tolerance: float) -> LoadingCurve:
+def _curve(indenter: Indenter, spectrum: Spectrum, load: Load, tolerance: float) -> LoadingCurve:
     """Return the loading curve of an indenter up to the largest contact during the load."""
     if load.by_depth:
         deepest = load.values.max()
@@ -213,7 +215,7 @@ def _curve(indenter: Indenter, medium: Medium, load: Load, tolerance: float) -> 
         if deepest > 0:
             force = contact_at(indenter, depth=float(deepest), tolerance=tolerance).force
     else:
-        force = creep_response(medium, load).creep.max()
+        force = creep_response(spectrum, load).max()
     if not 0 < force < np.inf:  # there is no contact during the load
         return indent(indenter, tolerance=tolerance, until_fraction=1 / indenter.elements)
     return indent(indenter, tolerance=tolerance, until_force=_BEYOND * force)

@@ -2,8 +2,8 @@
 
 The medium has the creep compliance J = J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)), with retardation times θ_j on a grid. The
 unknown coefficients J₀, φ, J_j ≥ 0 are called amounts. Independent viscoelastic springs with gaps, which have the same
-loading curve, replace the contact (viscous.springs). For given amounts, the depth as a function of time follows from
-the exact motion of these springs (viscous.unilateral). It is not linear in the amounts, so the Gauss-Newton method
+loading curve, replace the contact (viscous.row). For given amounts, the depth as a function of time follows from
+the exact motion of these springs (viscous.move). It is not linear in the amounts, so the Gauss-Newton method
 finds the amounts that fit the measured depth. The derivatives of the depth are computed as difference quotients. The
 first guess is a fit to the measurements before the force decreases.
 
@@ -15,12 +15,14 @@ import numpy as np
 from viscorough.basics import units
 from viscorough.basics.argument_names import argument
 from viscorough.basics.types import Array, Integers
-from viscorough.media.kinds import CreepTable, Prony, Springpot
+from viscorough.media.kinds import Prony, Springpot
 from viscorough.media.load import Load
 from viscorough.media.spectra import RetardationSpectrum, relaxation_spectrum, spectrum_of
+from viscorough.media.table import FreeForm, free_form_of_creep
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.viscous.creep_fit import first_lag, knots_of, prony_series, spectrum_of_growth
 from viscorough.viscous.kinetics import kinetics
+from viscorough.viscous.move import move_row
 from viscorough.viscous.non_negative import extremes, non_negative
 from viscorough.viscous.record_fit import (
     RESOLUTION,
@@ -35,8 +37,7 @@ from viscorough.viscous.record_fit import (
     scatter_of,
     spread_times,
 )
-from viscorough.viscous.springs import merged, row_of_springs
-from viscorough.viscous.unilateral import move_row
+from viscorough.viscous.row import merged, row_of_springs
 
 # Largest number of Gauss-Newton iterations, and of trial steps in an iteration. If a step increases the sum of squares,
 # the next trial step has half the length.
@@ -96,7 +97,7 @@ def fit_receding_depth(
         low, high = extremes(columns, target, values, distance, signed)
         limit_early_times(low, high, time, first_lag(load, lags))
     compliance = values @ amounts
-    medium: CreepTable | Prony | Springpot = CreepTable(time, compliance)
+    medium: FreeForm | Prony | Springpot = free_form_of_creep(time, compliance)
     if kind == "prony":
         medium = _prony(amounts, record.times, compliance[-1])
     elif kind == "springpot":
@@ -213,7 +214,7 @@ class _RecedingRecord:
             self.times[kept],
         )
         spectrum = spectrum_of(relaxation_spectrum(retardation), retardation)
-        moved, _, _ = move_row(
+        moved = move_row(
             self.gap, self.stiffness, self.limit, spectrum, self.load.time, self.load.values, by_depth=False
         )
         return moved.depth[self.place]

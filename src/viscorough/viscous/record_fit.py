@@ -17,7 +17,8 @@ from scipy.special import fdtri
 
 from viscorough.basics.argument_names import spelled
 from viscorough.basics.types import Array
-from viscorough.media.kinds import CreepTable, Prony, Springpot
+from viscorough.media.kinds import Prony, Springpot
+from viscorough.media.table import FreeForm
 
 # A record counts as exact if its scatter, divided by its largest value, is below this number.
 ROUNDING = 1e-9
@@ -53,7 +54,7 @@ class RecordFit(NamedTuple):
     shift_low, shift_high : ends of the confidence intervals of the quantities in `shift`
     """
 
-    medium: CreepTable | Prony | Springpot
+    medium: FreeForm | Prony | Springpot
     time: Array
     compliance: Array
     modulus: Array | None

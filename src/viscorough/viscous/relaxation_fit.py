@@ -1,6 +1,6 @@
 """Fit of a medium to the measured force on an indenter whose depth is known.
 
-Independent springs with gaps, which have the same loading curve, replace the contact (viscous.springs). Let spring i
+Independent springs with gaps, which have the same loading curve, replace the contact (viscous.row). Let spring i
 have the stiffness k_i and touch at time t_i, and let the first n springs be in contact at time t. In a medium with the
 relaxation modulus ψ(t) = G∞ + Σ G_j exp(−t/τ_j) the force is
 
@@ -9,7 +9,7 @@ relaxation modulus ψ(t) = G∞ + Σ G_j exp(−t/τ_j) the force is
 The relaxation times τ_j are given by a grid. The unknown moduli G∞, G_j ≥ 0 are found by least squares:
 
 - If the contact only grows, n does not depend on the medium, and the force is linear in the moduli.
-- Otherwise n and the force follow from the exact motion of the springs (viscous.unilateral), and the Gauss-Newton
+- Otherwise n and the force follow from the exact motion of the springs (viscous.move), and the Gauss-Newton
   method finds the moduli. The formula with constant n gives the derivatives of the force. This is correct because a
   spring has no force when it is released: the change of n with the moduli changes the force to second order only.
   (Under a prescribed depth, the motion of a spring does not depend on the other springs.)
@@ -32,11 +32,13 @@ from viscorough.basics import units
 from viscorough.basics.argument_names import argument
 from viscorough.basics.types import Array, Integers
 from viscorough.media.creep_response import branch_forces
-from viscorough.media.kinds import CreepTable, Prony, Springpot
+from viscorough.media.kinds import Prony, Springpot
 from viscorough.media.load import Load
 from viscorough.media.spectra import RelaxationSpectrum, retardation_spectrum, spectrum_of
+from viscorough.media.table import FreeForm, free_form_of_creep
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.viscous.kinetics import kinetics
+from viscorough.viscous.move import move_row
 from viscorough.viscous.non_negative import extremes, non_negative
 from viscorough.viscous.record_fit import (
     RESOLUTION,
@@ -48,8 +50,7 @@ from viscorough.viscous.record_fit import (
     scatter_of,
     spread_times,
 )
-from viscorough.viscous.springs import merged, row_of_springs
-from viscorough.viscous.unilateral import move_row
+from viscorough.viscous.row import merged, row_of_springs
 
 # Largest number of Gauss-Newton iterations. The iterations end earlier if the sum of squares decreases by less than the
 # share _STALLED, or if the root mean square of the residuals is below the share _EXACT of the largest force.
@@ -131,9 +132,9 @@ def fit_force(
     low[low < resolution / record.elastic_force] = 0.0
     prony, residual = _prony(fit), force - fit.force
     compliance, modulus = prony.creep_compliance(time), prony.relaxation_modulus(time)
-    medium: CreepTable | Prony | Springpot = prony
+    medium: FreeForm | Prony | Springpot = prony
     if kind == "table":
-        medium = CreepTable(time, compliance)
+        medium = free_form_of_creep(time, compliance)
     elif kind == "springpot":
         medium, residual = _springpot(record, fit)
     misfit = float(np.sqrt(np.mean(residual**2)))
@@ -402,7 +403,7 @@ class _ForceRecord:
         spectrum = RelaxationSpectrum(0.0, float(amounts[0]), amounts[1:][branches], times[branches])
         law = spectrum_of(spectrum, retardation_spectrum(spectrum))
         springs, depth = (self.gap, np.diff(self.stiffness)), self.load.values - offset - self.drifts @ drift
-        moved, _, _ = move_row(*springs, np.inf, law, self.load.time, depth, by_depth=True)
+        moved = move_row(*springs, np.inf, law, self.load.time, depth, by_depth=True)
         return path, moved.force[self.place], moved.in_contact[self.place]
 
     def _path(self, offset: float, drift: Array) -> _Path:

@@ -10,13 +10,20 @@ from viscorough.surfaces.indenter import Indenter
 from viscorough.surfaces.self_affine import cut_disc
 from viscorough_study.ensembles.pool import elements_across, ensembles
 
+# Compute the punch on grids up to this number of elements across. Beyond, 1 − κ_c is proportional to 1/n to 3 %, so the
+# extrapolated κ_c is wrong by less than 2e-5. The computation would need 7 GB on 4097 elements across.
+_LARGEST = 1025
+
 
 @cache
 def punch_stiffness(elements_across):
     """Compute κ_c, the reduced stiffness k/(4GL) of a flat disc on a grid, by boundary elements.
 
-    κ_c tends to 1 as the number of elements across the disc increases.
+    κ_c tends to 1 as the number n of elements across the disc increases. On fine grids it is extrapolated: 1 − κ_c is
+    proportional to 1/n.
     """
+    if elements_across > _LARGEST:
+        return 1 - (1 - punch_stiffness(_LARGEST)) * _LARGEST / elements_across
     disc = cut_disc(np.zeros((elements_across, elements_across)), elements_across)
     return contact_at(Indenter(disc, 1 / elements_across), depth=1.0, tolerance=1e-5).stiffness / 4
 

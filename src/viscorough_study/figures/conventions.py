@@ -29,6 +29,9 @@ CONVENTION_LABELS = {
 def plot_conventions(scaling, conventions):
     """Draw β − H/(1 + H) and ζ/(2 − H) of the discs for several conventions, each with its 95 % interval.
 
+    β is fitted freely. ζ is fitted with the exponent H/(1 + H), to which Eqs. 4 and 11 belong, and is drawn where this
+    law describes the curve (`style.DEFINED`).
+
     The conventions are choices that the paper leaves open, such as the kind of mean. The first row of the figure has
     the conventions of all other figures. Each further row changes one convention, or shows another group of discs.
     scaling : table of fitted power laws
@@ -45,8 +48,9 @@ def plot_conventions(scaling, conventions):
             for row in fits(discs, changed, hurst=hurst).itertuples():
                 interval = row.beta_low - beta, row.beta_high - beta
                 style.mark_with_interval(betas, row.beta - beta, y + height, interval, look, along="x")
-                interval = row.zeta_low / zeta, row.zeta_high / zeta
-                style.mark_with_interval(zetas, row.zeta / zeta, y + height, interval, look, along="x")
+                if row.residual_fixed <= style.DEFINED:
+                    interval = row.zeta_fixed_low / zeta, row.zeta_fixed_high / zeta
+                    style.mark_with_interval(zetas, row.zeta_fixed / zeta, y + height, interval, look, along="x")
     for axes, law in ((betas, 0), (zetas, 1)):
         axes.axvline(law, color=style.GREY, linestyle="--", zorder=1)
         for y in range(0, len(changes), 2):

@@ -7,9 +7,6 @@ from viscorough_study.ensembles.mean_curve import mean_curve
 from viscorough_study.figures import style
 from viscorough_study.fits.conventions import fits
 
-# Largest root mean square of ln(vt/h) less a law with the exponent H/(1 + H), over region (b), for which the prefactor
-# of this law is defined (claim zeta_viscous).
-DEFINED = 0.1
 CONSTANT = {"color": style.GREY, "linestyle": "-", "linewidth": 0.6, "zorder": 1}
 
 
@@ -72,7 +69,7 @@ def _constant(scaling, conventions):
     Hurst exponents count if a law with the exponent H/(1 + H) describes their curves, so that its prefactor is defined.
     """
     discs = fits(scaling, conventions | {"gamma": "with"}, source="discs", case_group="base")
-    discs = discs[discs["residual_fixed"] <= DEFINED]
+    discs = discs[discs["residual_fixed"] <= style.DEFINED]
     return np.exp(np.log(reference.zeta_viscous(discs["hurst"]) / discs["zeta_fixed"]).mean())
 
 

@@ -38,15 +38,22 @@ def plot_speed(one_surface, means, methods, other_solvers):
     velocity = one_surface[one_surface["quantity"] == "velocity"]
     exponents = sorted(velocity["hurst"].unique())
     for axes, letter, hurst in zip((left, right), "ab", (exponents[0], exponents[-1]), strict=True):
-        axes.set_title(f"({letter}) One surface, $H$ = {hurst:g}:\nonly a finer grid makes it accurate")
-        _draw_one_surface(axes, velocity[velocity["hurst"] == hurst])
+        rows = velocity[velocity["hurst"] == hurst]
+        number = style.count_text(rows["surfaces"])
+        axes.set_title(f"({letter}) Error for one surface, $H$ = {hurst:g}:\nmean over {number} surfaces")
+        _draw_one_surface(axes, rows)
     rows = means[means["quantity"] == "velocity"]
     hurst = min(rows["hurst"], key=lambda value: (abs(value - exponents[0]), value))
+    law = rows[rows["model"] == LAW]
     rows = rows[rows["hurst"] == hurst]
     has_law = rows[rows["model"] == LAW]["error"].notna().any()
-    finding = "the law needs no simulation" if has_law else "the law is not calibrated for it"
+    finding = (
+        f"law at every $H$: {100 * law['error'].min():.1f} to {100 * law['error'].max():.1f} %"
+        if has_law
+        else "the law is not calibrated for it"
+    )
     many.set_title(f"(c) Mean of many surfaces, $H$ = {hurst:g}:\n{finding}")
-    _draw_mean(many, rows)
+    _draw_mean(many, rows, law)
     solver.set_title("(d) Solver alone, on a given grid:\nfiner tolerances go far below the grid error")
     _draw_solvers(solver, methods, velocity, other_solvers)
     return figure
@@ -67,18 +74,20 @@ def _power(number):
     return f"$10^{{{np.log10(number):.0f}}}$ %"
 
 
-def _draw_free(axes, rows, above=False):
-    """Draw the law, which costs no time, as a marker at the left edge, with a label above or below the marker.
+def _draw_law(axes, rows, above=False):
+    """Draw the law, which needs no new simulation, as markers at the left edge, with a label at the largest error.
 
     Nothing is drawn if the table has no error of the law, which is calibrated for some Hurst exponents only.
+    rows : rows of the law, one for each Hurst exponent; above : True to write the label above the marker
     """
-    if rows["error"].isna().all():
+    errors = rows["error"].dropna()
+    if errors.empty:
         return
-    place, edge = (LEFT, rows["error"].iloc[0]), axes.get_yaxis_transform()
     look = {"color": style.VERMILION, "clip_on": False}
-    axes.plot(*place, "D", transform=edge, markersize=5, **look)
-    offset = (6, 6 if above else -10)
-    axes.annotate("law: free", place, offset, xycoords=edge, textcoords="offset points", **look)
+    edge = axes.get_yaxis_transform()
+    axes.plot(np.full(errors.size, LEFT), errors, "D", linestyle="", transform=edge, markersize=5, **look)
+    where = {"xycoords": edge, "textcoords": "offset points"}
+    axes.annotate("law", (LEFT, errors.max()), (6, 6 if above else -10), **where, **look)
 
 
 def _label_ends(axes, ends, side="right"):
@@ -125,11 +134,11 @@ def _draw_one_surface(axes, rows):
         text, where = f"request {100 * row.value:g} %", {"textcoords": "offset points", "va": "center"}
         axes.annotate(text, (row.processor_s, row.error), (6, 0), **where)
     law = rows[rows["model"] == LAW]
-    _draw_free(axes, law, above=law["error"].iloc[0] > rows[rows["model"] == MDR]["error"].iloc[-1])
+    _draw_law(axes, law, above=law["error"].iloc[0] > rows[rows["model"] == MDR]["error"].iloc[-1])
     _say(axes, "along a curve: finer tolerances\n× request of an error")
 
 
-def _draw_mean(axes, rows):
+def _draw_mean(axes, rows, law):
     rows = rows.dropna(subset="error")
     timed = rows[rows["processor_s"] > 0]["processor_s"]
     if timed.empty:
@@ -146,8 +155,8 @@ def _draw_mean(axes, rows):
     _lines_of_equal_error(axes, ERRORS, _limits(rows))
     axes.set_xlim(timed.min() / 12, timed.max() * 40)
     _label_ends(axes, ends)
-    _draw_free(axes, rows[rows["model"] == LAW])
-    _say(axes, "along a curve: 1 to 256 surfaces")
+    _draw_law(axes, law)
+    _say(axes, "along a curve: 1 to 256 surfaces\nlaw at every $H$: no new simulation")
 
 
 def _draw_solvers(axes, methods, velocity, other_solvers):

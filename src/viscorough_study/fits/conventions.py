@@ -58,7 +58,9 @@ def in_reading(fits, gamma):
     low, high = interval_columns(gamma)
     zeta = fits["zeta"] * zeta_scale(fits["beta"], gamma)
     scale = zeta_scale(reference.exponent_beta(fits["hurst"]), gamma)
-    fixed = {name: fits[name] * scale for name in ("zeta_fixed", "zeta_fixed_low", "zeta_fixed_high")}
+    # Tables of grids that were published before these columns were added lack them.
+    names = [name for name in ("zeta_fixed", "zeta_fixed_low", "zeta_fixed_high") if name in fits]
+    fixed = {name: fits[name] * scale for name in names}
     converted = fits.assign(zeta=zeta, zeta_low=fits[low], zeta_high=fits[high], gamma=gamma, **fixed)
     return converted.drop(columns=list(interval_columns("with")))
 

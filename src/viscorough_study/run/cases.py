@@ -161,6 +161,25 @@ def line_cases(settings):
     return cases
 
 
+def nested_cases(settings):
+    """Return {name: description} of the discs whose curves are computed on two neighbouring grids.
+
+    A case belongs to one Hurst exponent and one grid. Its description has the keys hurst, spawn_key, elements (across
+    discs on the grid and on the next coarser grid, if there is one), surfaces and until_x. They are arguments of
+    ensembles.nested_grids.nested_curves.
+    """
+    cases = {}
+    for ensemble in settings["nested_grids"]["ensembles"]:
+        coarser = []
+        for grid in ensemble["grids"]:
+            case = {"hurst": ensemble["hurst"], "elements": [grid["elements"], *coarser]}
+            case["spawn_key"] = seeds.nested_disc_key(ensemble["hurst"], grid["elements"])
+            name = f"{hurst_id(ensemble['hurst'])}_{grid['elements']:05d}"
+            cases[name] = case | {"surfaces": grid["surfaces"], "until_x": grid["until_x"]}
+            coarser = [grid["elements"]]
+    return cases
+
+
 def method_problems(settings):
     """Return the arguments of performance.problems.named_problem for every indenter in the comparison of methods."""
     methods = settings["methods"]
@@ -297,6 +316,14 @@ def disc_memory(case):
     It includes the fields of the solver on a grid twice as wide as the disc.
     """
     return round(BASE_MEMORY + 424 * max(ensemble["elements"] for ensemble in case["ensembles"]) ** 2 / 1e6)
+
+
+def nested_memory(case):
+    """Return the memory [MB] of a job that indents discs on two grids: surfaces and fields of the finer grid.
+
+    The curves end at small contacts, so the solver needs less than for whole curves.
+    """
+    return round(BASE_MEMORY + 150 * case["elements"][0] ** 2 / 1e6)
 
 
 def measured_memory(case):

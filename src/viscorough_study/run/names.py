@@ -8,3 +8,4 @@ MDR, MDR_PI, MDR_FITTED = "MDR", "MDR, λ = π", "MDR, λ fitted"
 AUTOMATIC, BY_HAND, NAIVE = "automatic", "best by hand", "naive"
 # Names of settings that decide whether a method works (robustness.knobs).
 STEPS, BOX, RANGE = "explicit steps", "box", "power law"
+PAPER_GRID = 257  # elements across the discs of the paper

@@ -149,6 +149,14 @@ def one_surface_key(hurst, number):
     return _key(18, _millionths(hurst), number)
 
 
+def nested_disc_key(hurst, elements):
+    """Return the spawn key of the discs that are indented on two neighbouring grids.
+
+    elements : elements across the disc on the finer grid
+    """
+    return _key(19, _millionths(hurst), elements)
+
+
 def random_indenter_key(case):
     """Return the spawn key of a small random indenter in the stability campaign; case : number of the test case"""
     return _key(case)

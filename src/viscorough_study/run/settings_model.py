@@ -499,19 +499,32 @@ class Sizes(Section):
     batch: BATCH = meaning("realizations per job, of all grids and Hurst exponents one after the other")
 
 
-class Collapse(Section):
-    """Test of the collapse of the curves of all grids, and one law fitted to all these curves."""
+class NestedGrid(Section):
+    """A grid on which discs are indented, and also on the next coarser grid of the list."""
 
-    elements_min: several(whole(1, 1_000_000), 1, 5, once=True) = meaning(
-        "median of the elements in contact from which curves are compared and fitted"
+    elements: whole(3, 16385) = meaning("elements across the discs", also="odd")
+    surfaces: whole(2, 1_000_000) = meaning("discs that are indented on this grid and on the next coarser grid")
+    until_x: real(1e-6, 1.0) = meaning(
+        "X = F/(4GhL) at which the curves end, with h over all waves of the spectrum",
+        also="at most the value of the next coarser grid",
     )
-    x_high: several(X, 1, 5, once=True) = meaning(
-        "X up to which curves are compared, and fitted by a power law", also=f"{TEN_TIMES} `ensemble.x_low`"
+
+
+class NestedEnsemble(Section):
+    """Discs of one Hurst exponent on grids from coarse to fine."""
+
+    hurst: real(above=0, high=1, decimals=4) = meaning("Hurst exponent")
+    grids: several(NestedGrid, 2, 12, once="elements") = meaning("grids, from coarse to fine")
+
+
+class NestedGrids(Section):
+    """The same discs on neighbouring grids, for β at small X and on an infinitely fine grid."""
+
+    elements_min: whole(1, 1_000_000) = meaning(
+        "median of the elements in contact from which a curve is used on a grid"
     )
-    corrected_x_high: several(X, 1, 5, once=True) = meaning(
-        "X up to which a power law with a correction to scaling is fitted", also=f"{TEN_TIMES} `ensemble.x_low`"
-    )
-    resamples: whole(20, 100_000) = meaning("bootstrap resamples of every ensemble")
+    tolerance: real(1e-6, 0.1) = meaning("tolerance of the curves")
+    ensembles: several(NestedEnsemble, 1, 20, once="hurst") = meaning("discs, for every Hurst exponent")
 
 
 class Settings(Section):
@@ -537,7 +550,7 @@ class Settings(Section):
     methods: Methods
     stability: Stability
     sizes: Sizes
-    collapse: Collapse
+    nested_grids: NestedGrids
 
     @model_validator(mode="after")
     def _agree(self) -> Any:

@@ -22,11 +22,7 @@ _RANGES = [
 ]
 # Lists of ranges: {setting with a list of upper ends: setting with the lower end of all ranges}. The lower end is None
 # if each entry of the list is a pair (lower end, upper end). In each range the ends must differ by a factor of ten.
-_RANGES_IN_LISTS = {
-    "sizes.windows": None,
-    "collapse.x_high": "ensemble.x_low",
-    "collapse.corrected_x_high": "ensemble.x_low",
-}
+_RANGES_IN_LISTS = {"sizes.windows": None}
 
 
 def contradictions(settings):
@@ -163,7 +159,23 @@ def _empty_crop(settings):
                 yield [path], f"{name_of(path)}: {first} to {end} is empty; allowed: an end above the first number"
 
 
+def _unlike_grids(settings):
+    """Yield contradictions between the grids of an ensemble, which are listed from coarse to fine."""
+    for i, ensemble in enumerate(settings.nested_grids.ensembles):
+        path = ["nested_grids", "ensembles", i, "grids"]
+        for j, grid in enumerate(ensemble.grids):
+            name = f"{name_of([*path, j])}.elements"
+            if grid.elements % 2 == 0:
+                yield [[*path, j]], f"{name}: {grid.elements} is even; allowed: odd numbers, whose grids share a centre"
+            if j and grid.elements <= (before := ensemble.grids[j - 1]).elements:
+                yield [path], f"{name}: {grid.elements} comes after {before.elements}; allowed: from coarse to fine"
+            if j and grid.until_x > (before := ensemble.grids[j - 1]).until_x:
+                fault = f"{shown(grid.until_x)} is above {shown(before.until_x)} of the next coarser grid"
+                yield [path], f"{name_of([*path, j])}.until_x: {fault}; allowed: at most that"
+
+
 _RULES = (
+    _unlike_grids,
     _disc_without_line,
     _unlike_lengths,
     _too_short_wave,

@@ -33,6 +33,7 @@ def answer(table):
         EQUIVALENCE.get(verdicts["equivalence"], ""),
         COLLAPSE[verdicts["collapse"]],
         _boundary_elements(table),
+        _fine_grids(table),
         _reduction(table),
         _master_curve(table, verdicts),
         GAMMA.get(verdicts["gamma"], ""),
@@ -125,6 +126,21 @@ def _boundary_elements(table):
         parts += [f"{word} {_joined(named)}"] if named else []
     parts += [f"undecided at {_joined(_hursts(cases, ('undecided',)))}"] if _any(cases, ("undecided",)) else []
     return f"By boundary elements on the paper's grid the exponent {_joined(parts, comma=True)}" if parts else ""
+
+
+def _fine_grids(table):
+    """Return the sentence on the exponent β on fine grids and at small X, or "" if there are no results."""
+    rows = table[(table["claim"] == "exponent_limit") & table["value"].notna()]
+    words = {
+        "reproduced": "tends to H/(1 + H)",
+        "not reproduced": "departs from H/(1 + H)",
+        "undecided": "is undecided",
+    }
+    parts = []
+    for verdict, word in words.items():
+        hursts = [f"{_hurst(case):g}" for case in rows.loc[rows["verdict"] == verdict, "case"]]
+        parts += [f"{word} at H = {_joined(hursts)}"] if hursts else []
+    return f"On finer grids and at smaller X it {_joined(parts, comma=True)}" if parts else ""
 
 
 def _reduction(table):

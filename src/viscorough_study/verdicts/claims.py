@@ -51,6 +51,7 @@ JUDGES = {
     "realizations": law_criteria.realizations,
     "alpha_limit": law_criteria.alpha_limit,
     "exponent_small_hurst": law_criteria.exponent_small_hurst,
+    "exponent_limit": law_criteria.exponent_limit,
     "depth": law_criteria.depth,
     "zeta_elastic": zeta_criteria.zeta_elastic,
     "zeta_viscous": zeta_criteria.zeta_viscous,

@@ -14,7 +14,8 @@ import viscorough
 from support.command_line import run, sphere_heights, values
 from viscorough import Indenter, Load, indent, kinetics
 from viscorough.io import netcdf
-from viscorough.media.kinds import CreepTable, KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
+from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
+from viscorough.media.table import CreepTable
 
 MEDIA = {
     "newtonian": ("{kind: newtonian, viscosity: 30}", Newtonian(30.0)),

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from support.media import SPRINGS_AND_DASHPOTS
-from viscorough import StandardLinearSolid
+from viscorough import CreepTable, Load, StandardLinearSolid
 from viscorough.media.free_form import creep_columns, fit_creep, fit_relaxation, relaxation_columns
-from viscorough.media.table import FreeForm, free_form_of
+from viscorough.media.table import FreeForm, RelaxationTable, free_form_of
 
 TIMES = np.geomspace(1e-3, 1e2, 60)
 COMPLIANCES = {
@@ -112,3 +112,65 @@ def test_compliance_is_unknown_outside_the_known_times():
 def test_impossible_free_forms_are_refused(arguments, message):
     with pytest.raises(ValueError, match=message):
         FreeForm(*arguments)
+
+
+# ---- tables
+
+
+@pytest.mark.parametrize("rows", [60, 600])
+def test_tables_of_a_solid_are_the_solid(rows):
+    """Tables may begin at 0 or later; J is unknown outside their rows."""
+    solid, times = SPRINGS_AND_DASHPOTS["solid"], np.geomspace(1e-3, 1e2, rows)
+    between = np.geomspace(1e-3, 1e2, 77)
+    for table in (
+        CreepTable(times, solid.creep_compliance(times)),
+        CreepTable(np.append(0, times), solid.creep_compliance(np.append(0, times))),
+        RelaxationTable(times, solid.relaxation_modulus(times)),
+    ):
+        np.testing.assert_allclose(table.creep_compliance(between), solid.creep_compliance(between), rtol=1e-7)
+        assert np.isnan(table.creep_compliance([0.0, 101.0])).tolist() == [table.first_time > 0, True]
+        spectrum, misfit = table.spectrum(Load([0.0, 50.0], force=[1.0, 1.0]))
+        assert misfit < 1e-8
+        assert spectrum.instantaneous + (spectrum.flows / spectrum.decays).sum() == pytest.approx(1 / 1.5, rel=1e-7)
+
+
+def test_misfit_is_the_largest_during_the_load():
+    noise = 0.01 * np.random.default_rng(1).standard_normal(TIMES.size)
+    noise[-1] = 0.08
+    table = CreepTable(TIMES, (1 + TIMES**0.3) * (1 + noise))
+    shorter, longer = (table.spectrum(Load([0.0, last], force=[1.0, 1.0]))[1] for last in (10.0, 100.0))
+    assert 0.01 < shorter < 0.03 < longer < 0.1
+
+
+def test_table_without_creep_is_a_spring():
+    table = CreepTable([0.0, 1.0, 5.0], [2.0, 2.0, 2.0])
+    assert table.relaxation.instantaneous_modulus == pytest.approx(0.5, rel=1e-10)
+    assert table.relaxation_modulus(5.0) == pytest.approx(0.5, rel=1e-10)
+
+
+def kinked(times, share):
+    """Return a concave compliance with a kink, which no relaxing medium has."""
+    return (1 - share) * (1 + np.log1p(times)) + share * np.minimum(times, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: CreepTable([0.0], [1.0]), "times: 1, from 0 on; allowed: two or more"),
+        (lambda: CreepTable([-1.0, 1.0], [1.0, 2.0]), "times: 2, from -1 on; allowed: two or more, from 0 on"),
+        (lambda: CreepTable([0, 1, 1], [1, 2, 3]), "each larger than the one before"),
+        (lambda: CreepTable([0, 1, 2], [1, 2]), r"allowed: a number for each time, shape \(3,\)"),
+        (lambda: CreepTable([0, 1], ["1", "2"]), "compliances: '1' is a text without a unit"),
+        (lambda: CreepTable([0, 1], [0, -1]), "at least one of them above 0"),
+        (lambda: CreepTable([0, 1], [1, np.nan]), "allowed: finite numbers"),
+        (lambda: CreepTable([0, 1, 2], [2, 1, 0.5]), "CreepTable: springs and dashpots miss it by 42 % at time 0"),
+        (lambda: CreepTable([0, 1, 2], [0, 1, 3]), "CreepTable: springs and dashpots miss it by 23 % at time 2"),
+        (lambda: CreepTable(TIMES, kinked(TIMES, 1.0)), "miss it by 32 % at time 0.924915; allowed: 10 %"),
+        (lambda: CreepTable(TIMES, kinked(TIMES, 0.3)), "which is more than its scatter; allowed: tables of a medium"),
+        (lambda: RelaxationTable([0, 1, 2], [1, 2, 4]), "RelaxationTable: springs and dashpots miss it"),
+    ],
+)
+def test_tables_of_no_relaxing_medium_are_refused(make, message):
+    with pytest.raises(ValueError, match=message) as refusal:
+        make()
+    assert "\n" not in str(refusal.value)

@@ -31,6 +31,7 @@ from viscorough import (
     self_affine_disc,
 )
 from viscorough.viscous.kinetics import row_motion
+from viscorough.viscous.row import row_of_springs
 
 BODIES = {"sphere": reference.sphere(1.7), "cone": reference.cone(0.3)}
 SPEED, TURN = 0.1, 1.0
@@ -130,6 +131,14 @@ def test_release_converges_on_fine_grids():
     assert_converges("release of a sphere", errors)
 
 
+def creep_integral(medium, time):
+    """Return ∫J dt from time 0 on."""
+    instantaneous, fluidity, compliances, times = medium.retardation
+    x = np.divide.outer(time, times)
+    delayed = (compliances * times * (x + np.expm1(-x))).sum(axis=-1)
+    return instantaneous * time + 0.5 * fluidity * time**2 + delayed
+
+
 def test_released_sphere_recovers_by_creep():
     """Without a force the deepest point of the imprint recovers: its creep follows from the pressure history."""
     medium, force, end = MEDIA["solid"], 0.05, 0.7
@@ -147,7 +156,7 @@ def test_released_sphere_recovers_by_creep():
         carried.append(relaxation.relaxed_modulus * depth[k] + relaxation.moduli[0] * state)
     for time, found in zip(motion.time[2:], motion.depth[2:], strict=True):
         steps = np.diff(carried)
-        means = (medium.creep_integral(time - times[1:], time - times[:-1])) / lag
+        means = (creep_integral(medium, time - times[:-1]) - creep_integral(medium, time - times[1:])) / lag
         expected = carried[0] * medium.creep_compliance(time) + means @ steps
         expected -= carried[-1] * medium.creep_compliance(time - end)
         assert found == pytest.approx(float(expected), rel=2e-5)
@@ -252,7 +261,7 @@ def test_forces_fall_along_the_row_after_a_long_rest(name):
     rest, ramp = 100.0, 1e-4
     force = 0.05 * curve.force[-1] / float(medium.creep_compliance(ramp))
     load = Load([0.0, rest, rest + ramp, rest + 2 * ramp], force=[0.0, 0.0, force, 0.3 * force])
-    _, moved = row_motion(curve, medium, load)
+    moved = row_motion(curve, row_of_springs(curve), medium.spectrum(load)[0], load)
     assert np.diff(moved.pressures).max() <= 1e-12 * moved.pressures.max()
 
 
@@ -280,7 +289,7 @@ def test_default_curves_are_fine_enough():
 
 @pytest.mark.parametrize("control", ["force", "depth"])
 @pytest.mark.parametrize("name", ["solid", "prony"])
-def test_media_given_by_their_compliance_are_integrated_to_the_tolerance(name, control):
+def test_media_given_by_their_compliance_are_sampled(name, control):
     curve = curve_of_body(BODIES["sphere"], np.geomspace(1e-5, 1, 201))
     medium = SPRINGS_AND_DASHPOTS[name]
     load = Load([0, 1, 2, 3, 4.0], **{control: (0.3 if control == "depth" else 0.2) * np.array([0, 1, 0.2, 0.6, 0.0])})
@@ -288,33 +297,21 @@ def test_media_given_by_their_compliance_are_integrated_to_the_tolerance(name, c
     exact, found = (kinetics(curve, load, each, times) for each in (medium, Wrapped(medium)))
     for name in ("depth", "force"):
         values = getattr(exact, name)
-        np.testing.assert_allclose(getattr(found, name), values, rtol=0, atol=5e-4 * values.max())
+        np.testing.assert_allclose(getattr(found, name), values, rtol=0, atol=1e-7 * values.max())
 
 
 class Accelerating(Wrapped):
     """A medium with a compliance that is not concave, unlike any medium that relaxes."""
 
-    def __init__(self):
-        super().__init__(MEDIA["solid"])
-
     def creep_compliance(self, time):
         return 0.1 + np.maximum(np.asarray(time, float) - 1, 0.0)
 
-    def creep_rate(self, time, *, left=False):
-        return np.where(np.asarray(time) > 1, 1.0, 0.0)
 
-    def creep_integral(self, start, end):
-        late = [0.5 * np.maximum(np.asarray(time) - 1, 0.0) ** 2 for time in (start, end)]
-        return 0.1 * (np.asarray(end) - start) + late[1] - late[0]
-
-
-def test_receding_contact_needs_a_concave_compliance():
+def test_media_that_do_not_relax_are_refused():
     curve = curve_of_body(BODIES["sphere"], np.geomspace(1e-5, 1, 201))
-    growing, receding = (Load([0.0, 1.0, 3.0], force=0.1 * np.array([0, 1, end])) for end in (1, 0.2))
-    assert np.isfinite(kinetics(curve, growing, Accelerating()).depth).all()
-    for load in (receding, Load([0.0, 1.0, 3.0], depth=[0, 0.1, 0.1])):
-        with refused("the compliance of Accelerating grows faster after time 0.99.* a concave J"):
-            kinetics(curve, load, Accelerating())
+    for load in (Load([0.0, 1.0, 3.0], force=[0, 0.1, 0.02]), Load([0.0, 1.0, 3.0], depth=[0, 0.1, 0.1])):
+        with refused("Accelerating: springs and dashpots miss it by 90 % at time 3; allowed: 10 %"):
+            kinetics(curve, load, Accelerating(MEDIA["solid"]))
 
 
 def test_motions_that_overflow_are_refused():

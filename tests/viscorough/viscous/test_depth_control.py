@@ -17,7 +17,9 @@ CURVE = curve_of_body(SPHERE, np.geomspace(1e-6, 1, 601))
 def test_step_relaxes_with_the_modulus(name):
     times = np.array([1.0, 1.1, 2.0, 30.0])
     result = kinetics(CURVE, depth=np.full(4, 0.3), medium=MEDIA[name], times=times)
-    np.testing.assert_allclose(result.force, SPHERE.force(0.3) * MEDIA[name].relaxation_modulus(times - 1), rtol=1e-9)
+    expected = SPHERE.force(0.3) * MEDIA[name].relaxation_modulus(times - 1)
+    # A springpot is replaced by springs and dashpots with its J to 1e-8.
+    np.testing.assert_allclose(result.force, expected, rtol=1e-7 if name == "springpot" else 1e-9)
 
 
 @pytest.mark.parametrize("name", SPRINGS_AND_DASHPOTS)

@@ -70,18 +70,23 @@ def test_depth_is_undetermined_before_the_first_level():
 # ---- media
 
 
+def accuracy(name, otherwise):
+    """Return the accuracy of a motion: a springpot is replaced by springs and dashpots with its J to 1e-8."""
+    return 1e-7 if name == "springpot" else otherwise
+
+
 @pytest.mark.parametrize("name", MEDIA)
 def test_constant_force_gives_the_creep_of_any_medium(name):
     """The force is given as one number and as samples."""
     medium, times = MEDIA[name], np.geomspace(1e-3, 90, 40)
     result = kinetics(CURVE, FORCE, medium, times)
     depth = depth_of_sphere(FORCE * medium.creep_compliance(times))
-    np.testing.assert_allclose(result.depth, depth, rtol=1e-11)
+    np.testing.assert_allclose(result.depth, depth, rtol=accuracy(name, 1e-11))
     velocity = FORCE * medium.creep_rate(times) / (8 * np.sqrt(RADIUS * depth))
-    np.testing.assert_allclose(result.velocity, velocity, rtol=1e-10)
+    np.testing.assert_allclose(result.velocity, velocity, rtol=accuracy(name, 1e-10))
     sampled = kinetics(CURVE, np.full(41, FORCE), medium, np.append(0, times))
-    np.testing.assert_allclose(sampled.depth[1:], depth, rtol=1e-11)
-    np.testing.assert_allclose(sampled.velocity[1:-1], velocity[:-1], rtol=1e-9)
+    np.testing.assert_allclose(sampled.depth[1:], depth, rtol=accuracy(name, 1e-11))
+    np.testing.assert_allclose(sampled.velocity[1:-1], velocity[:-1], rtol=accuracy(name, 1e-9))
 
 
 @pytest.mark.parametrize("name", MEDIA)
@@ -110,7 +115,8 @@ def test_default_times_are_a_hundred_over_the_whole_curve(name):
     at_once, times = FORCE * medium.creep_compliance(0.0), result.time[result.time > 0]
     assert (times.size, result.time[0] == 0) == (100, at_once > 0)
     np.testing.assert_allclose(np.diff(np.log(times)), np.log(times[-1] / times[0]) / 99, rtol=1e-9)
-    np.testing.assert_allclose(result.depth, depth_of_sphere(FORCE * medium.creep_compliance(result.time)), rtol=1e-11)
+    depth = depth_of_sphere(FORCE * medium.creep_compliance(result.time))
+    np.testing.assert_allclose(result.depth, depth, rtol=accuracy(name, 1e-11))
     end = FORCE * medium.creep_compliance(min(medium.last_time, 1e300))
     assert result.depth[-1] == pytest.approx(min(CURVE.depth[-1], depth_of_sphere(end)), rel=2e-3)
 

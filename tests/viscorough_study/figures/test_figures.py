@@ -11,7 +11,7 @@ from support.study import SHOWN
 from viscorough import reference
 from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.comparisons.histories import FORCE_CURVE, RECOVERY
-from viscorough_study.figures.collapse import SHIFT
+from viscorough_study.figures.exponent import SHIFT
 from viscorough_study.figures.failure_map import CONCERNED, LETTERS, MEANINGS
 from viscorough_study.figures.speed import SOLVERS
 from viscorough_study.figures.style import SMALL
@@ -63,7 +63,8 @@ def expected_points(scaling):
         for name in interval:
             less = rows[name] - rows["hurst"] / (1 + rows["hurst"])
             yield "conventions", 0, points(rows.assign(less=less), "less", None)
-        yield "conventions", 1, points(rows.assign(over=rows["zeta"] / (2 - rows["hurst"])), "over", None)
+        rows = rows[rows["residual_fixed"] <= 0.1]
+        yield "conventions", 1, points(rows.assign(over=rows["zeta_fixed"] / (2 - rows["hurst"])), "over", None)
     for panel, name in ((0, "stiffness"), (2, "area"), (3, "gap")):
         columns = [f"{name}_ratio{end}" for end in ("", "_low", "_high")]
         yield "reduction", panel, points(reduction.dropna(subset=columns), "x", *columns)
@@ -91,8 +92,12 @@ def expected_points(scaling):
         table, line_rms = published("sizes").query("window_rule == @rule"), {"rms_convention": "line"}
         yield "sizes", panel, points(fits(table, SHOWN | {"window_rule": rule}, source="discs"), None, "beta")
         yield "sizes", panel + 1, points(fits(table, SHOWN | {"window_rule": rule}, **line_rms), None, "beta")
-    limits = published("infinite_grid").query("source == 'discs'")
-    yield "collapse", 2, points(limits.assign(less=limits["beta"] - limits["expected"]), None, "less")
+    fine = published("fine_exponents").query("finest == 1")
+    fine = fine.assign(middle=fine["x_low"] * np.sqrt(10))
+    for panel, quantity in enumerate(("whole", "interface")):
+        yield "local_exponent", panel, points(fine[fine["quantity"] == quantity], "middle", "beta")
+    judged = fine.query("judged == 1 and quantity == 'whole'").assign(shifted=fine["hurst"] + SHIFT)
+    yield "fig4_exponent", 0, points(judged, "shifted", "beta", "beta_low", "beta_high")
     for panel, (_, rows) in enumerate(published("level_placement").groupby("scene", sort=False)):
         yield "level_placement", panel, points(rows.query("error > 3e-5"), "processor_s", "error")
     for panel, (_, rows) in enumerate(published("failure_knobs").groupby("knob", sort=False), 2):
@@ -291,7 +296,7 @@ def test_axes_of_lambda_show_its_change_within_region_b(drawn):
 
 def test_exponent_of_what_has_no_region_and_intervals_beside_their_value(scaling):
     def symbols(table):
-        axes = plot("exponent", table, SHOWN, (0.4, 1.0)).axes[0]
+        axes = plot("exponent", table, published("fine_exponents")[:0], SHOWN, (0.4, 1.0)).axes[0]
         values = [line for line in axes.lines if line.get_linestyle() == "None" and line.get_marker() not in "_|"]
         return axes, [line.get_xydata()[0] for line in values]
 
@@ -314,11 +319,3 @@ def test_measured_scans_stand_beside_the_generated_discs(drawn, pooled, scaling)
     none = tables.measured_kinetics()[:0]
     motion = plot("measured", {"polished": pooled[0]}, pooled, scaling, none, SHOWN, fraction_min=0.95).axes[1]
     assert motion.get_title() == "(b) depth: no forces were given"
-
-
-def test_collapse_makes_curves_of_a_law_horizontal(drawn):
-    whole, _, _ = drawn["collapse"].axes
-    for rank in range(2):
-        for line in whole.lines[2 * rank : 2 * rank + 2]:
-            close(line.get_ydata(), np.exp(0.5) * SHIFT**-rank)
-    assert [line.get_xdata()[0] for line in whole.lines[:2]] == pytest.approx([1e-4 * 33**1.4, 1e-4 * 129**1.4])

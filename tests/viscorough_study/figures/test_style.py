@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from support.contract import refused
+from support.figures import published
 from support.study import SHOWN
 from viscorough_study.figures.exponent import plot_exponent
 from viscorough_study.figures.style import figure, hurst_looks, save_figure
@@ -51,7 +52,11 @@ def test_saved_files_are_reproducible(scaling, tmp_path):
     folders = [tmp_path / name for name in "ab"]
     for folder in folders:
         folder.mkdir()
-        save_figure(drawn := plot_exponent(scaling, SHOWN, (0.4, 1.0)), folder / "a.png", folder / "a.pdf")
+        save_figure(
+            drawn := plot_exponent(scaling, published("fine_exponents"), SHOWN, (0.4, 1.0)),
+            folder / "a.png",
+            folder / "a.pdf",
+        )
         with refused("a.svg: unknown kind of figure; allowed: .png, .pdf"):
             save_figure(drawn, folder / "a.svg")
     first, second = ({path.name: path.read_bytes() for path in folder.iterdir()} for folder in folders)

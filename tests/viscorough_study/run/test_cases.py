@@ -96,3 +96,11 @@ def test_memory_of_every_job_is_below_two_gigabytes(settings, name):
     needed += [cases.pool_memory(tables, pool, settings["ensemble"]) for pool in cases.POOLS]
     assert min(needed) >= cases.BASE_MEMORY
     assert max(needed) < 2000
+
+
+def test_nested_discs_have_the_next_coarser_grid_and_a_key_of_their_exponent_and_grid(settings):
+    nested = cases.nested_cases(settings)
+    assert nested["h04000_00129"]["elements"] == [129]
+    assert nested["h04000_00513"]["elements"] == [513, 257]
+    assert nested["h04000_00513"]["spawn_key"] == (19, 400000, 513)
+    assert len({case["spawn_key"] for case in nested.values()}) == len(nested) == 5 * 4

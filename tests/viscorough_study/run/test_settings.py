@@ -17,9 +17,17 @@ from viscorough_study.run.settings import check_settings, complete_settings, res
 COMBINATION = {"number": 1, "force": 1.0, "viscosity": 1.0, "diameter": 1.0, "rms": 1e-3}
 SCAN = {"name": "scan", "files": ["z.npy"]}
 FLUID = {"name": "fluid", "kind": "newtonian", "viscosity": 1.0}
+
+
+def nested(changed):
+    """Return settings of two nested grids of which the finer grid has changed values."""
+    coarse, fine = ({"elements": elements, "surfaces": 2, "until_x": 0.1} for elements in (129, 257))
+    return {"nested_grids": {"ensembles": [{"hurst": 0.4, "grids": [coarse, fine | changed]}]}}
+
+
 WRONG = [
     ({"discs": {"elemnts": 33}}, "unknown key 'elemnts' in discs; did you mean elements?"),
-    ({"colour": "blue"}, "unknown key 'colour' in settings; allowed: collapse, direct, discs"),
+    ({"colour": "blue"}, "unknown key 'colour' in settings; allowed: direct, discs, ensemble"),
     ({"dis\ncs": 1}, r"unknown key 'dis\ncs' in settings; did you mean discs?"),
     ({"discs": {"elements": "many"}}, "discs.elements is 'many'; allowed: integer, 9 to 4097 (elements across"),
     ({"discs": {"elements": 33.0}}, "discs.elements is 33.0; allowed: integer, 9 to"),
@@ -78,8 +86,9 @@ WRONG = [
     ({"periodic": {"hurst": [0.1, 0.1]}}, "periodic.hurst: 0.1 occurs twice; allowed: once"),
     ({"lines": {"hurst": [0, 0.0, 0.1, 0.4, 0.6, 0.9]}}, "lines.hurst: 0 occurs twice; allowed: once"),
     ({"sizes": {"windows": [[1e-3, 1e-2], [1e-3, 1e-2]]}}, "sizes.windows: [0.001, 0.01] occurs twice; allowed: once"),
-    ({"collapse": {"x_high": [0.1, 1e-10]}}, "ensemble.x_low and collapse.x_high[1]: 1e-09 and 1e-10 are in the wrong"),
-    ({"collapse": {"elements_min": [10, 10]}}, "collapse.elements_min: 10 occurs twice; allowed: once"),
+    (nested({"elements": 65}), "nested_grids.ensembles[0].grids[1].elements: 65 comes after 129; allowed: from coarse"),
+    (nested({"elements": 258}), "nested_grids.ensembles[0].grids[1].elements: 258 is even; allowed: odd numbers"),
+    (nested({"until_x": 0.5}), "nested_grids.ensembles[0].grids[1].until_x: 0.5 is above 0.1 of the next coarser grid"),
     (
         {"scaling": {"slope_half_width": 0.01}},
         "scaling.slope_half_width: 0.01 decades hold no further abscissa; allowed",

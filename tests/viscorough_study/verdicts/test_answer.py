@@ -49,6 +49,20 @@ def test_answer_states_agreements_and_sizes_of_differences():
     )
 
 
+def test_answer_names_the_outcome_on_fine_grids():
+    columns = ["claim", "case", "value", "expected", "verdict"]
+    rows = [
+        ("exponent_limit", "H = 0.1, X from 0.001 to 0.01", 0.16, 0.09, "undecided"),
+        ("exponent_limit", "H = 0.4, X from 0.001 to 0.01", 0.3, 0.286, "reproduced"),
+        ("exponent_limit", "H = 0.9, X from 0.0001 to 0.001", 0.48, 0.474, "reproduced"),
+    ]
+    text = answer(pd.concat([TABLE, pd.DataFrame(rows, columns=columns)], ignore_index=True))
+    assert (
+        "by 0.16 at 0.1. On finer grids and at smaller X it tends to H/(1 + H) at H = 0.4 and 0.9, and is undecided at "
+        "H = 0.1. The method" in text
+    )
+
+
 @pytest.mark.parametrize(
     ("claim", "case", "verdict", "text"),
     [

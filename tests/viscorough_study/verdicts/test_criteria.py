@@ -12,11 +12,13 @@ from scipy.special import gamma as gamma_function
 
 from support.study import ACROSS, CLAIMS, ELEMENTS, HURST, X, evidence, evidence_of_curves, evidence_with_factors
 from viscorough.reference import exponent_alpha, exponent_beta, one_element_stiffness, zeta_elastic
+from viscorough_study.fits.intervals import three_columns
 from viscorough_study.verdicts.claims import JUDGES
 from viscorough_study.verdicts.evidence import judged
 from viscorough_study.verdicts.law_criteria import (
     alpha_limit,
     depth,
+    exponent_limit,
     exponent_small_hurst,
     master_curve,
     no_grid,
@@ -192,6 +194,26 @@ def test_exponents_up_to_the_limit_of_the_claim_are_shown_apart(sample):
     discs, lines = exponent_small_hurst(sample, 0.03)
     assert (discs["value"], discs["verdict"]) == (pytest.approx(0.05), "not reproduced")
     assert lines["verdict"] == "reproduced"
+
+
+def test_exponent_on_fine_grids_is_its_limit_or_that_of_the_finest_grid(sample):
+    """Only the judged decade of vt/h counts. Without a limit the case is undecided."""
+    columns = ["hurst", "quantity", "judged", "x_low", "finding", "expected", *three_columns("beta", range(3))]
+    rows = [
+        (0.4, "whole", 1, 1e-3, "tends", 0.286, 0.31, 0.30, 0.32, 0.29, 0.28, 0.30),
+        (0.4, "whole", 0, 1e-2, "", 0.286, 0.35, 0.34, 0.36, 0.35, 0.34, 0.36),
+        (0.4, "interface", 1, 1e-3, "departs", 0.286, 0.2, 0.19, 0.21, 0.2, 0.19, 0.21),
+        (0.1, "whole", 1, 1e-3, "undecided", 0.091, 0.16, 0.1, 0.22, np.nan, np.nan, np.nan),
+        (0.9, "whole", 1, 1e-4, "departs", 0.474, 0.6, 0.59, 0.61, 0.6, 0.59, 0.61),
+    ]
+    table = pd.DataFrame(rows, columns=[*columns, *three_columns("limit", range(3))])
+    sample.tables["fine_exponents"] = table
+    cases = list(exponent_limit(sample, 0.03))
+    assert [case["case"].split(",")[0] for case in cases] == ["H = 0.4", "H = 0.1", "H = 0.9"]
+    assert [(case["value"], case["low"]) for case in cases] == [(0.29, 0.28), (0.16, 0.1), (0.6, 0.59)]
+    assert [case["verdict"] for case in cases] == ["reproduced", "undecided", "not reproduced"]
+    del sample.tables["fine_exponents"]
+    assert [case["verdict"] for case in exponent_limit(sample, 0.03)] == ["undecided"]
 
 
 def test_curves_that_leave_the_first_region_sooner_separate_first(sample):

@@ -38,12 +38,12 @@ from viscorough.basics.argument_names import argument
 from viscorough.basics.arrays import jumps_and_slopes
 from viscorough.basics.errors import ConvergenceError
 from viscorough.basics.types import Array, Integers
-from viscorough.media.first_decrease import ROUNDING, Terms, first_decrease, rate_at_samples
 from viscorough.media.load import Load
 from viscorough.media.medium import Medium
 from viscorough.results.motion import Motion
 from viscorough.surfaces.indenter import Indenter
 from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.first_decrease import ROUNDING, Terms, first_decrease, rate_at_samples
 from viscorough.viscous.integration.internal_variables import check_overflow, checked_input
 
 if TYPE_CHECKING:

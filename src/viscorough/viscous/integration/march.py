@@ -33,7 +33,7 @@ def march(
         Depth [length] or force [N] as a function of time [s], linear between samples. It may decrease. In a medium with
         a parallel dashpot (Newtonian, Kelvin-Voigt), a step of the depth must not press on the surface.
     medium : Medium or float or str
-        Medium of springs and dashpots (no Springpot, no CreepTable), or the viscosity of a Newtonian medium.
+        Medium of springs and dashpots (no Springpot), or the viscosity of a Newtonian medium.
     method : {"implicit", "events"}, optional
         "implicit" makes one step from each sample of the load to the next, and solves a contact problem for the
         pressures at the end of each step. Its error is of second order in the length of the steps. "events" proceeds

@@ -23,10 +23,10 @@ of the interpolated curve (LoadingCurve.at_force). The depths are chosen from th
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from viscorough.basics.compilation import njit
 from viscorough.basics.types import Array, Mask
+from viscorough.media.load import Load
 from viscorough.media.spectra import zero_of_increasing
 from viscorough.results.loading_curve import LoadingCurve
 
@@ -44,6 +44,8 @@ _EARLY_CHORDS = 64
 # power, 4e-15, of its value at the first level. Motions overflow if the first spring is far softer. The exponent of the
 # power law is large if the first level is deep although few elements touch.
 _LARGEST_DECAY = 8.0
+# The force of the row is exactly the force of the loading curve at the turns of a load, at most so many.
+_MOST_TURNS = 200
 # A load may exceed the end of the loading curve by this share, because of rounding.
 ROUNDING = 1e-10
 
@@ -65,12 +67,13 @@ class RowOfSprings(NamedTuple):
     first_depth: float
 
 
-def row_of_springs(curve: LoadingCurve, depths: ArrayLike = ()) -> RowOfSprings:
+def row_of_springs(curve: LoadingCurve, load: Load | None = None) -> RowOfSprings:
     """Return the row of springs that has the force of a loading curve.
 
-    depths : additional depths at which the force of the row is exactly the force of the interpolated curve, shape (n,)
-        [length]
+    load : if it prescribes the depth, the force of the row is exactly the force of the interpolated curve at the depths
+        at which it turns, steps or is held (the _MOST_TURNS deepest of them)
     """
+    depths = np.array([]) if load is None or not load.by_depth else _turning_depths(load)
     parts = [_before_first_level(curve)]
     if curve.depth.size > 1:
         parts.append(_between_levels(curve))
@@ -94,6 +97,13 @@ def row_of_springs(curve: LoadingCurve, depths: ArrayLike = ()) -> RowOfSprings:
     used = jumps > 0
     fraction = np.maximum(count[: gap.size], 1) / curve.elements
     return RowOfSprings(gap[used], jumps[used], fraction[used], float(limit), first_depth)
+
+
+def _turning_depths(load: Load) -> Array:
+    """Return the depths at which a prescribed depth turns, steps or is held; at most the _MOST_TURNS deepest."""
+    moves = np.sign(np.diff(load.values, prepend=0.0))
+    turns = np.append(moves[:-1] * moves[1:] <= 0, True) | (np.diff(load.time, append=np.inf) == 0)
+    return np.unique(load.values[turns])[-_MOST_TURNS:]
 
 
 def _before_first_level(curve: LoadingCurve) -> Array:

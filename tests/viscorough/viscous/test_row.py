@@ -8,7 +8,7 @@ import pytest
 from support.curves import curve_of_body, curve_of_levels, random_curve
 from viscorough import AccuracyWarning, Load, Maxwell, indent, kinetics, reference, self_affine_disc
 from viscorough.viscous.integration.events import march_events
-from viscorough.viscous.springs import row_of_springs
+from viscorough.viscous.row import row_of_springs
 
 DISC = self_affine_disc(0.7, 65, rms=0.01, seed=1)
 

@@ -8,13 +8,13 @@ from support.small_motion import SpringsAndDashpots, row_of_springs, small_motio
 from viscorough import Springpot
 from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Prony, StandardLinearSolid
 from viscorough.media.spectra import power_law_spectrum, relaxation_spectrum, spectrum_of
-from viscorough.viscous.unilateral import BEYOND, INFINITE, SETTLED, move_row
+from viscorough.viscous.move import BEYOND, INFINITE, SETTLED, move_row
 
 
 def moved(gaps, weights, medium, times, load, *, by_depth, limit=np.inf):
-    law = spectrum_of(medium.relaxation, medium.retardation)
-    motion, ended, _ = move_row(gaps, weights, limit, law, times, load, by_depth=by_depth)
-    assert ended == SETTLED
+    spectrum = spectrum_of(medium.relaxation, medium.retardation)
+    motion = move_row(gaps, weights, limit, spectrum, times, load, by_depth=by_depth)
+    assert motion.ended == SETTLED
     return motion
 
 
@@ -135,19 +135,19 @@ def test_newtonian_surface_does_not_recover():
     # The force is taken just after each time. No spring touches before the depth reaches 0.55 again.
     np.testing.assert_allclose(motion.force, [2.0 * 0.55, 0, 0, 2.0 * 6 * 0.2, 2.0 * 8 * 0.2], rtol=1e-12)
     assert motion.in_contact.tolist() == [1, 0, 0, 6, 8]
-    assert motion.receding_from == 1.0
+    assert motion.released_from == 1.0
 
 
 def test_motion_ends_at_the_last_depth_and_at_infinite_forces():
     gaps, times = np.array([0.0, 0.5]), np.array([0.0, 1.0])
-    law = spectrum_of(*(getattr(SPRINGS_AND_DASHPOTS["solid"], name) for name in ("relaxation", "retardation")))
-    motion, ended, until = move_row(gaps, np.ones(2), 0.8, law, times, np.array([0.0, 1.0]), by_depth=True)
-    assert (ended, until) == (BEYOND, pytest.approx(0.8, rel=1e-12))
+    solid = spectrum_of(*(getattr(SPRINGS_AND_DASHPOTS["solid"], name) for name in ("relaxation", "retardation")))
+    motion = move_row(gaps, np.ones(2), 0.8, solid, times, np.array([0.0, 1.0]), by_depth=True)
+    assert (motion.ended, motion.until) == (BEYOND, pytest.approx(0.8, rel=1e-12))
     assert np.isnan(motion.depth[1])
     dashpot = spectrum_of(*(getattr(SPRINGS_AND_DASHPOTS["newtonian"], name) for name in ("relaxation", "retardation")))
     step = np.array([0.0, 0.0, 1.0])
-    _, ended, until = move_row(gaps, np.ones(2), np.inf, dashpot, times[[0, 1, 1]], step, by_depth=True)
-    assert (ended, until) == (INFINITE, 1.0)
+    motion = move_row(gaps, np.ones(2), np.inf, dashpot, times[[0, 1, 1]], step, by_depth=True)
+    assert (motion.ended, motion.until) == (INFINITE, 1.0)
 
 
 @pytest.mark.parametrize("exponent", [0.05, 0.5, 0.95])

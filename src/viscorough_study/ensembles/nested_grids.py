@@ -1,0 +1,146 @@
+"""Generate the same self-affine surface on several grids, and compute its loading curves on them.
+
+A surface is a sum of waves in the unit square, z(r) = Σ c_k exp(2πi k·r), with wave vectors k of whole numbers, random
+complex Gaussian amplitudes c_k, and ⟨|c_k|²⟩ = |k|^(−2−2H), H the Hurst exponent. A grid with n points across contains
+the waves with 1 ≤ |k| ≤ n/2. The amplitudes are drawn once for the finest grid. A coarser grid has the waves of the
+finest grid that fit in its circle, with the same amplitudes. So its map has the distribution of an independent map on
+the coarse grid. Every second point of the fine map has not: it contains the short waves as well.
+
+The number of points across is odd, and r = 0 is the central point of every grid. The centres of the discs coincide.
+
+The rms height h that makes curves dimensionless contains all waves of the spectrum, also those that no grid has:
+h² is the variance of the heights over the disc plus the expected variance of all waves with |k| > n/2. It depends only
+on the map itself, so a difference between two grids contains the same quantity of each grid as an independent map does.
+"""
+
+import time
+from functools import cache
+
+import numpy as np
+from ducc0 import fft
+
+from viscorough.contact.loading_path import indent
+from viscorough.io.netcdf import Content, Variable
+from viscorough.surfaces.indenter import Indenter
+from viscorough.surfaces.self_affine import cut_disc
+from viscorough_study.ensembles.averages import abscissa
+
+# Sum the weights of single waves up to this wave number; an integral replaces the sum beyond.
+_LATTICE = 256
+# Ratio of the rms height to the diameter. Results do not depend on it; small heights keep depths below the diameter.
+_RMS = 1e-3
+# Abscissae of a curve per decade of X, and its first X, below which a single element touches on every grid.
+PER_DECADE, _X_LOW = 20, 1e-9
+# Curves extend beyond their last abscissa by this relative distance, so that rounding does not exclude it.
+_ROUNDING = 1e-9
+
+
+def surface_waves(hurst, across, seed):
+    """Draw the amplitudes c_k of a surface, with the wave vectors of a grid with `across` points across.
+
+    across : n, odd; seed : int or SeedSequence
+    Returns an array of shape (n, (n + 1)/2) in the layout of a real Fourier transform: rows are k_y = 0, 1, ..., −1 and
+    columns are k_x = 0, 1, ...
+    """
+    random = np.random.Generator(np.random.SFC64(seed))
+    half = across // 2
+    rows = np.fft.fftfreq(across, 1 / across)
+    waves = random.standard_normal((across, 2 * (half + 1))).view(complex)
+    waves[-1 : -half - 1 : -1, 0] = waves[1 : half + 1, 0].conj()  # real heights: c(−k) is the conjugate of c(k)
+    square = rows[:, None] ** 2 + np.arange(half + 1) ** 2
+    square[0, 0] = np.inf
+    weight = square ** (-(1 + hurst) / 2)
+    weight[square > (across / 2) ** 2] = 0
+    waves *= np.sqrt(0.5) * weight
+    return waves
+
+
+def coarser_waves(waves, across):
+    """Return the waves that a coarser grid with `across` points across contains, in the layout of `surface_waves`."""
+    half = across // 2
+    kept = np.concatenate([waves[: half + 1, : half + 1], waves[len(waves) - half :, : half + 1]])
+    rows = np.fft.fftfreq(across, 1 / across)
+    kept[rows[:, None] ** 2 + np.arange(half + 1) ** 2 > (across / 2) ** 2] = 0
+    return kept
+
+
+def disc_of_waves(waves):
+    """Return the heights of the disc at the centre of a surface, shape (n, n), nan outside the disc.
+
+    The point r = 0 of the surface is the central point of the disc.
+    """
+    across = len(waves)
+    heights = fft.c2r(waves, lastsize=across, forward=False)
+    return cut_disc(np.roll(heights, (across // 2, across // 2), axis=(0, 1)), across)
+
+
+@cache
+def wave_variances(hurst, across):
+    """Return the expected variances Σ |k|^(−2−2H) of the waves that a grid contains, and of all shorter waves.
+
+    The variances are in the units of `surface_waves`. A grid contains the waves with 1 ≤ |k| ≤ n/2.
+
+    hurst : H > 0; for H = 0 the sum over all waves diverges
+    across : n, the number of points across
+    """
+    square = np.arange(-_LATTICE, _LATTICE + 1)[:, None] ** 2 + np.arange(-_LATTICE, _LATTICE + 1) ** 2
+    square = square[(square > 0) & (square <= _LATTICE**2)]
+    weight = square ** (-1.0 - hurst)
+    beyond = np.pi / hurst * np.maximum(across / 2, _LATTICE) ** (-2 * hurst)
+    present = weight[square <= (across / 2) ** 2].sum() + np.pi / hurst * _LATTICE ** (-2 * hurst) - beyond
+    return present, beyond + weight[square > (across / 2) ** 2].sum()
+
+
+def curve_of_disc(disc, hurst, x, tolerance):
+    """Compute vt/h of a disc at given X by boundary elements; return ln(vt/h) and the number of elements in contact.
+
+    disc : heights from `disc_of_waves`
+    x : X = F/(4GhL), increasing, shape (abscissae,); the curve is computed up to the last X
+    tolerance : argument of viscorough.indent
+    Both results have the shape (abscissae,).
+    """
+    across = len(disc)
+    rms = np.sqrt(np.nanvar(disc) + wave_variances(hurst, across)[1])
+    force = 4 * _RMS * x
+    indenter = Indenter(disc * (_RMS / rms), 1 / across)
+    curve = indent(indenter, tolerance=tolerance, until_fraction=1.0, until_force=force[-1] * (1 + _ROUNDING))
+    stiffness = curve.at_force(force)[1] / 4
+    return np.log(x / stiffness), np.exp(np.interp(np.log(force), np.log(curve.force), np.log(curve.contact_count)))
+
+
+def nested_curves(hurst, elements, surfaces, *, until_x, tolerance, seed, spawn_key):
+    """Compute the curves of the same discs on a grid and on the next coarser grid; return them as a Content.
+
+    hurst : Hurst exponent; surfaces : number of discs
+    elements : [elements across on the grid], or [on the grid, on the next coarser grid]
+    until_x : X = F/(4GhL) at which the curves end
+    tolerance : argument of viscorough.indent
+    seed, spawn_key : root seed and spawn key of the discs; the seed of a disc has the key followed by its number
+
+    The variables have the dimensions (surface, grid, abscissa), with grid 0 the finer grid. The processor time of a
+    curve includes the generation of the disc.
+    """
+    x, shape = abscissa(_X_LOW, until_x, PER_DECADE), (surfaces, len(elements))
+    logarithm, count = np.empty((2, *shape, len(x)))
+    seconds = np.empty(shape)
+    for number in range(surfaces):
+        start = time.process_time()
+        waves = surface_waves(hurst, elements[0], np.random.SeedSequence(seed, spawn_key=(*spawn_key, number)))
+        for grid, across in enumerate(elements):
+            disc = disc_of_waves(waves if grid == 0 else coarser_waves(waves, across))
+            logarithm[number, grid], count[number, grid] = curve_of_disc(disc, hurst, x, tolerance)
+            seconds[number, grid], start = time.process_time() - start, time.process_time()
+    axes = ("surface", "grid")
+    described = {
+        "log_velocity": ((*axes, "abscissa"), logarithm, "ln(vt/h), with h over all waves of the spectrum", "1"),
+        "contact_count": ((*axes, "abscissa"), count, "elements in contact", "1"),
+        "processor_s": (axes, seconds, "processor time of a disc and its curve", "s"),
+        "elements": (("grid",), np.array(elements), "elements across the disc", "1"),
+        "hurst": ((), np.array(hurst), "Hurst exponent", "1"),
+        "x": (("abscissa",), x, "dimensionless force F/(4GhL) or time Ft/(4ηhL)", "1"),
+    }
+    variables = {
+        name: Variable(dimensions, values, {"long_name": text, "units": units})
+        for name, (dimensions, values, text, units) in described.items()
+    }
+    return Content(variables, {"title": "Curves of the same discs on neighbouring grids"})

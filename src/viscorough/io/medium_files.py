@@ -131,10 +131,10 @@ def creep_table_of(path: FilePath) -> Path | None:
 def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: Any) -> None:
     """Write an IdentifiedMedium as YAML for `read_medium`, atomically.
 
-    A creep table is written to a second file in the same folder, with the suffix .csv. The table has the columns time,
-    compliance, low and high. low and high are the ends of the 95 % interval of the compliance; they are empty if the
-    scatter of the record is unknown. If the force was measured, the table also has the column relaxation_modulus, and
-    low and high are the ends of the interval of the relaxation modulus.
+    A medium of free form is written as a creep table, to a second file in the same folder, with the suffix .csv. The
+    table has the columns time, compliance, low and high. low and high are the ends of the 95 % interval of the
+    compliance; they are empty if the scatter of the record is unknown. If the force was measured, the table also has
+    the column relaxation_modulus, and low and high are the ends of the interval of the relaxation modulus.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ class IdentifiedMedium(ReadOnlyArrays):
     Attributes
     ----------
     medium : Medium
-        Medium of the requested kind: a table, a Prony series or a springpot.
+        Medium of the requested kind: a FreeForm for a table, a Prony series or a springpot.
     time : array
         Time 0, and the times at which J or ψ was determined, shape (times,).
     compliance : array

@@ -1,18 +1,12 @@
 """Identification of the medium of a half-space from a measured indentation by a body with a known loading curve.
 
-The record is a measured depth under a known force, or a measured force at a known depth. One of three modules fits a
-medium to the record:
-
-1. `creep_fit` fits the creep compliance J to the depth of a contact that only grows.
-2. `receding_fit` fits J to the depth of a contact that recedes because the force decreases.
-3. `relaxation_fit` fits the relaxation modulus ψ to the force at a depth that may increase and decrease.
+The record is a measured depth under a known force, or a measured force at a known depth. This module checks the record
+and chooses its class (viscous.fit.records). viscous.fit.report fits the medium.
 """
 
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,14 +16,12 @@ from viscorough.basics import units
 from viscorough.basics.argument_names import argument
 from viscorough.basics.arrays import increasing
 from viscorough.basics.errors import AccuracyWarning
-from viscorough.basics.types import Array, Integers
+from viscorough.basics.types import Array
 from viscorough.media.identified_medium import IdentifiedMedium
 from viscorough.media.load import Load, force_load
 from viscorough.results.loading_curve import LoadingCurve, check_curve
-from viscorough.viscous.creep_fit import fit_growing_depth
-from viscorough.viscous.receding_fit import fit_receding_depth
-from viscorough.viscous.record_fit import ROUNDING, RecordFit, Shift
-from viscorough.viscous.relaxation_fit import fit_force
+from viscorough.viscous.fit.records import DepthRecord, ForceRecord, RecedingRecord, Record, Shift
+from viscorough.viscous.fit.report import RecordFit, fit_record
 
 KINDS = ("table", "prony", "springpot")
 # A measured depth counts as decreasing if the mean of a few neighbouring measurements (rows of the record) lies below
@@ -37,6 +29,8 @@ KINDS = ("table", "prony", "springpot")
 # standard deviation that is estimated from the record is multiplied by 1 + 13/(rows - 4), because few rows do not
 # determine it well. Among records that consist of noise without creep, about one in ten thousand exceeds this limit.
 _LARGEST_DROP, _LARGER_FOR_FEW_ROWS = 3.0, 13.0
+# Rounding error of a measured depth, as a share of the largest depth.
+_ROUNDING = 1e-9
 # The curve before its first computed point is taken to be straight if the depth of this point is at most this share of
 # the largest depth.
 _FIRST_LEVEL = 1e-3
@@ -74,7 +68,8 @@ def identify_medium(
         force, and forces if the load is a depth. Their errors are assumed to be independent from row to row and of the
         same size in all rows.
     kind : str, optional
-        Kind of medium that is fitted by least squares: "table" for a CreepTable, "prony", or "springpot".
+        Kind of medium that is fitted by least squares: "table" for a medium of free form (a FreeForm, which is written
+        as a creep table), "prony", or "springpot".
     scatter : float or str, optional
         Standard deviation of the measured depth [length] or force; a number, or a text such as "2 nm". State it if it
         is known from the instrument. By default it is estimated from the record. A short or very precise record does
@@ -89,10 +84,9 @@ def identify_medium(
     -------
     IdentifiedMedium
         Identified medium, in Pa and s if the curve's unit of length is known, with confidence intervals. The interval
-        at a time contains a value if the best fit with this value is not significantly worse than the best fit of all
-        (profile likelihood, 95 %). For the measured depth of a growing contact, the compared fits are all J that do not
-        decrease, and all concave J. For other records they are media of springs and dashpots. Between two times, J does
-        not lie below the straight line between the values of `low`.
+        at a time contains a value if the best medium of springs and dashpots with this value is not significantly
+        worse than the best medium of all (profile likelihood, 95 %). Between two times, J does not lie below the
+        straight line between the values of `low`.
 
     Raises
     ------
@@ -141,82 +135,59 @@ def identify_medium(
     # Like prescribed forces (Load.in_units_of), measured forces in N are divided by this area in m².
     area = units.square_metres(unit) if by_depth else 1.0
     scatter = None if scatter is None else scatter / area
-    record = _Record(curve, *prescribed.with_times(times), times, measured / area, scatter, shift)
-    _check_depths(record)
-    fit = _fitting_function(record)(curve, record.load, record.place, record.measured, kind, record.scatter, shift)
+    record = _record(curve, prescribed, times, measured / area, scatter, shift)
+    fit = fit_record(record, kind, scatter)
     if kind != "table":
         _check_misfit(fit, record.measured, area)
-    assumed, effect = (np.nan, np.nan) if fit_offset else _effect_of_offset(record, fit)
+    assumed, effect = (np.nan, np.nan) if fit_offset else _effect_of_offset(curve, record, fit, shift)
     return _result(fit, shift, assumed, effect, unit, area)
 
 
-class _Record(NamedTuple):
-    """Measured record, prescribed load and loading curve, in consistent units.
+def _record(
+    curve: LoadingCurve, load: Load, times: Array, measured: Array, scatter: float | None, shift: Shift
+) -> Record:
+    """Return the measured values as a Record of the class that suits them.
 
-    curve : loading curve of the indenter
-    load : prescribed force or depth, with a sample at the time of each measurement
-    place : index of the sample of the load at the time of each measurement (row of the record), shape (rows,)
-    times : times of the measurements, shape (rows,)
-    measured : measured depths under a prescribed force, or measured forces at a prescribed depth, shape (rows,)
-    scatter : standard deviation of `measured`; None if the user did not state it
+    load : prescribed force or depth, in consistent units
+    times, measured, scatter : times, measured values and their standard deviation (None if it is not known)
     shift : whether an offset and a drift of the depth are fitted, too
+
+    Raises ValueError if the curve does not contain all depths. Also raises it if the measured depth decreases, unless
+    the force decreases or a drift is fitted.
     """
-
-    curve: LoadingCurve
-    load: Load
-    place: Integers
-    times: Array
-    measured: Array
-    scatter: float | None
-    shift: Shift
-
-
-def _check_depths(record: _Record) -> None:
-    """Raise ValueError if the loading curve does not contain all prescribed or measured depths."""
-    curve, load, times = record.curve, record.load, record.times
+    load, place = load.with_times(times)
+    arguments = curve, load, place, measured, shift
     if load.by_depth:
         _check_within(curve, load.time, load.values)
-        _check_first_level(curve, times, load.values[record.place])
-    else:
-        _check_within(curve, times, record.measured)
-        _check_first_level(curve, times, record.measured)
-
-
-def _fitting_function(record: _Record) -> Callable[..., RecordFit]:
-    """Return the function that fits a medium to this record: fit_force, fit_growing_depth or fit_receding_depth.
-
-    Raises ValueError if the measured depth decreases, unless the force decreases or a drift is fitted.
-    """
-    load = record.load
-    if load.by_depth:
-        return fit_force
-    decrease = _decrease(record.times, record.measured, record.scatter or 0.0)
+        _check_first_level(curve, times, load.values[place])
+        return ForceRecord(*arguments)
+    _check_within(curve, times, measured)
+    _check_first_level(curve, times, measured)
+    decrease = _decrease(times, measured, scatter or 0.0)
     if decrease is None:
-        return fit_growing_depth
-    if (np.diff(load.values[: record.place[-1] + 1]) < 0).any():
-        return fit_receding_depth
-    if record.shift.drift:
-        return fit_growing_depth
+        return DepthRecord(*arguments)
+    if (np.diff(load.values[: place[-1] + 1]) < 0).any():
+        return RecedingRecord(*arguments)
+    if shift.drift:
+        return DepthRecord(*arguments)
     raise ValueError(f"record: {decrease}; allowed: depths that grow, unless the force decreases or a drift is fitted")
 
 
-def _effect_of_offset(record: _Record, fit: RecordFit) -> tuple[float, float]:
+def _effect_of_offset(curve: LoadingCurve, record: Record, fit: RecordFit, shift: Shift) -> tuple[float, float]:
     """Return an assumed error of the zero of the depth, and the largest relative change of J that this error causes.
 
     The assumed error is the scatter of the depth. If the scatter is not known, it is a share of the largest depth.
     """
     load, measured = record.load, record.measured
-    scatter = np.nan if load.by_depth else fit.scatter
     assumed = _ASSUMED_OFFSET * float((load.values if load.by_depth else measured).max())
-    if not np.isnan(scatter):
-        assumed = scatter
+    if not (load.by_depth or np.isnan(fit.scatter)):
+        assumed = fit.scatter
     if load.by_depth:
         load = Load(load.time, depth=load.values - assumed)
     else:
         measured = measured - assumed
-    other = _fitting_function(record)(record.curve, load, record.place, measured, "table", np.nan, record.shift)
-    first = record.times[record.times > load.time[0]][0] - load.time[0]
-    shown = fit.time >= first
+    other = fit_record(type(record)(curve, load, record.place, measured, shift), "table", np.nan)
+    shown = fit.time >= record.first
     return assumed, float(np.abs(other.compliance[shown] / fit.compliance[shown] - 1).max())
 
 
@@ -328,7 +299,7 @@ def _decrease(times: Array, depth: Array, scatter: float) -> str | None:
         mean = depth[: count * size].reshape(count, size).mean(axis=1)
         drop = np.maximum.accumulate(mean) - mean
         largest = (_LARGEST_DROP + np.sqrt(2 * np.log(count))) * deviation * np.sqrt(2 / size)
-        allowed = largest + resolution + ROUNDING * abs(depth).max()
+        allowed = largest + resolution + _ROUNDING * abs(depth).max()
         if (drop > allowed).any():
             where = int(np.argmax(drop > allowed))
             return (

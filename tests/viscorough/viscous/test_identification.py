@@ -34,11 +34,25 @@ def record(medium, *, ramp=False):
 @pytest.mark.parametrize("ramp", [False, True])
 @pytest.mark.parametrize("name", MEDIA)
 def test_exact_records_give_the_compliance(name, ramp):
-    """At a step of force exactly, under a ramp to the discretization of the Volterra equation."""
+    """Within 0.1 %, or within the 1 % by which the chords of a table differ from every relaxing medium."""
     force, depth = record(MEDIA[name], ramp=ramp)
     identified = identify_medium(CURVE, force, TIMES, depth)
     wanted = MEDIA[name].creep_compliance(TIMES)
-    np.testing.assert_allclose(identified.medium.creep_compliance(TIMES), wanted, rtol=0.006 if ramp else 1e-9)
+    rtol = 0.006 if name == "table" else 1e-3
+    np.testing.assert_allclose(identified.medium.creep_compliance(TIMES), wanted, rtol=rtol)
+
+
+@pytest.mark.parametrize("name", ["newtonian", "maxwell", "kelvin-voigt", "solid"])
+def test_exact_records_of_few_elements_give_their_amounts_and_times(name):
+    """The retardation times are unknowns of the fit, and not the nearest times of a grid."""
+    force, depth = record(MEDIA[name], ramp=True)
+    found, exact = identify_medium(CURVE, force, TIMES, depth).medium, MEDIA[name].retardation
+    largest = float(MEDIA[name].creep_compliance(TIMES[-1]))
+    kept = found.compliances > 1e-6 * largest
+    np.testing.assert_allclose(found.retardation_times[kept], exact.times, rtol=1e-4)
+    np.testing.assert_allclose(found.compliances[kept], exact.compliances, rtol=1e-4)
+    assert found.instantaneous_compliance == pytest.approx(exact.instantaneous_compliance, abs=1e-6 * largest)
+    assert found.fluidity == pytest.approx(exact.fluidity, abs=1e-6 * largest / TIMES[-1])
 
 
 @pytest.mark.parametrize(("rows", "noise", "unknown"), [(8, 1e-3, 0.5), (20, 1e-4, 0.05), (60, 1e-2, 0.0)])
@@ -59,37 +73,38 @@ def test_intervals_under_a_ramp_hold_the_compliance():
     assert cell["unknown"] == 0
 
 
-def test_intervals_of_a_stated_scatter_are_those_of_normal_noise():
-    """If the record bends more than its noise, a row is fitted exactly, with 1.96 standard deviations to each side."""
-    force, depth = record(MEDIA["kelvin-voigt"])
-    noise = 1e-5 * depth[-1]
-    depth = depth + noise * np.random.default_rng(1).standard_normal(depth.size)
-    stated = identify_medium(CURVE, force, TIMES, depth, scatter=noise)
-    assert stated.scatter == noise
-    row = 20
-    stiffness = CURVE.at_force(force * stated.compliance[1 + row])[1]
-    half = 0.5 * force / stiffness * (stated.high - stated.low)[1 + row]
-    assert half == pytest.approx(1.96 * noise, rel=0.03)
-    found = identify_medium(CURVE, force, TIMES, depth)
-    half = 0.5 * force / stiffness * (found.high - found.low)[1 + row]
-    assert half > 1.97 * found.scatter, "Student's t"
+def test_intervals_of_a_scatter_that_is_estimated_are_wider():
+    """A few rows determine the scatter badly, as Student's t shows; a stated scatter is certain."""
+    times = TIMES[::5]
+    force, _ = record(MEDIA["kelvin-voigt"])
+    depth = kinetics(CURVE, force, MEDIA["kelvin-voigt"], times).depth
+    depth = depth + 1e-4 * depth[-1] * np.random.default_rng(1).standard_normal(depth.size)
+    found = identify_medium(CURVE, force, times, depth)
+    stated = identify_medium(CURVE, force, times, depth, scatter=found.scatter)
+    assert stated.scatter == found.scatter
+    shown = found.time >= times[0]
+    assert ((found.high - found.low) > 1.1 * (stated.high - stated.low))[shown].all()
+    half = identify_medium(CURVE, force, times, depth, scatter=0.5 * found.scatter)
+    assert (half.low >= stated.low)[shown].all()
+    assert (half.high <= stated.high)[shown].all()
 
 
-def test_intervals_that_the_record_does_not_determine_are_unknown():
-    """Springs and dashpots with eight parameters meet 8 rows of a Prony series, noise included."""
-    times = TIMES[::7]
-    force, _ = record(MEDIA["prony"])
-    depth = kinetics(CURVE, force, MEDIA["prony"], times).depth
-    noise = 1e-3 * depth[-1]
-    for seed in range(10):
-        noisy = depth + noise * np.random.default_rng(seed).standard_normal(times.size)
-        found = identify_medium(CURVE, force, times, noisy)
-        assert np.isnan([found.scatter, *found.low, *found.high]).all()
-        assert "scatter of depth unknown" in str(found)
-    stated = identify_medium(CURVE, force, times, noisy, scatter=3 * noise)
-    exact = MEDIA["prony"].creep_compliance(stated.time)
-    assert ((stated.low < exact) & (exact < stated.high))[1:].all()
-    assert f"scatter of depth {3 * noise:.3g}" in str(stated)
+@pytest.mark.parametrize(("rows", "noise"), [(8, 0.0), (5, 1e-3)])
+def test_intervals_that_the_record_does_not_determine_are_unknown(rows, noise):
+    """The fit meets an exact record to rounding, and five rows of a springpot with as many unknowns."""
+    times, medium = np.geomspace(0.02, 60, rows), MEDIA["springpot" if noise else "solid"]
+    force = 10 / float(medium.creep_compliance(60.0))
+    depth = kinetics(CURVE, force, medium, times).depth
+    noise = noise * depth[-1]
+    depth = depth + noise * np.random.default_rng(1).standard_normal(rows)
+    found = identify_medium(CURVE, force, times, depth)
+    assert np.isnan([found.scatter, *found.low, *found.high]).all()
+    assert "scatter of depth unknown" in str(found)
+    deviation = noise or 1e-3 * depth[-1]
+    stated = identify_medium(CURVE, force, times, depth, scatter=deviation)
+    exact = medium.creep_compliance(stated.time)
+    assert ((stated.low < exact) & (exact < stated.high))[stated.time >= times[0]].all()
+    assert f"scatter of depth {deviation:.3g}" in str(stated)
 
 
 @pytest.mark.parametrize(("name", "rows"), [("solid", 50), ("prony", 8)])
@@ -293,7 +308,8 @@ def test_a_wrong_zero_changes_the_compliance_as_stated():
     identified = identify_medium(CURVE, force, TIMES, depth)
     assert identified.assumed_offset == pytest.approx(1e-3 * depth.max())
     shifted = identify_medium(CURVE, force, TIMES, depth - identified.assumed_offset)
-    change = np.abs(shifted.compliance[1:] / identified.compliance[1:] - 1)
+    shown = identified.time >= TIMES[0]
+    change = np.abs(shifted.compliance[shown] / identified.compliance[shown] - 1)
     assert identified.offset_effect == pytest.approx(change.max())
     assert change[-1] == pytest.approx(1.5e-3, rel=0.3)
     assert f"would change J by up to {100 * change.max():.2g} %" in str(identified)

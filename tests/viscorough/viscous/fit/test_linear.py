@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq, nnls
 
-from viscorough.viscous.non_negative import extremes, non_negative
+from viscorough.viscous.fit.linear import extremes, non_negative
 
 PRESCRIBED = 1e5  # weight of the equation that prescribes a value
 

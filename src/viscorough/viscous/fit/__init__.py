@@ -1,0 +1,1 @@
+"""Fits of media to measured records."""

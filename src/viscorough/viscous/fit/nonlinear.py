@@ -1,0 +1,236 @@
+"""The fit of a medium to a record by nonlinear least squares.
+
+The unknowns are parameters of a medium, and offset and drift of the depth as far as they are fitted. The parameters
+determine the medium, and the medium predicts the record (viscous.fit.records).
+
+- `fit_elements` fits a medium of springs and dashpots with given times and unknown amounts x ≥ 0. If the prediction is
+  linear in the unknowns, one non-negative least-squares fit gives the best medium. Otherwise such a fit to the tangent
+  of the prediction shows which few of the amounts are positive, and `scipy.optimize.least_squares` finds these.
+- `with_free_times` also fits the times of the elements that are present.
+- `fit_springpot` fits the two parameters of a springpot.
+"""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from viscorough.basics.types import Array, Integers
+from viscorough.media.kinds import Springpot
+from viscorough.viscous.fit.linear import non_negative
+from viscorough.viscous.fit.records import Record, Tangent
+
+# Largest number of fits to tangents. They end earlier if the sum of squares would decrease by less than the share
+# _STALLED, or if the root mean square of the residuals is below the share _EXACT of the largest value.
+_ROUNDS, _STALLED, _EXACT = 8, 1e-3, 1e-13
+# The best fit to a tangent is accepted if the sum of squares exceeds its value for the tangent by at most this share.
+_LINEAR = 1e-3
+# Largest number of steps of a nonlinear fit. It ends earlier if the sum of squares or the unknowns change by less than
+# the share _CLOSE in a step. Derivatives that are not known are difference quotients with steps of the share _STEP.
+_EVALUATIONS, _CLOSE, _STEP = 15, 1e-9, 1e-6
+# Relative difference of two times whose derivatives give the derivative with respect to the time of an element.
+_NEAR = 1e-4
+# Two times count as equal if their relative difference is below this number.
+_SAME = 1e-6
+# Limits of the exponent of a springpot.
+_LEAST_EXPONENT, _LARGEST_EXPONENT = 0.001, 0.999
+
+
+class ElementFit(NamedTuple):
+    """Best medium of elements with given times.
+
+    times : retardation or relaxation times of the elements, shape (elements,)
+    amounts : amounts of the elements, see viscous.fit.records, shape (leading + elements,)
+    shift : fitted offset and drift, as far as they are unknowns of the record
+    tangent : prediction for these values, and its derivatives
+    squares : sum of squared residuals
+    """
+
+    times: Array
+    amounts: Array
+    shift: Array
+    tangent: Tangent
+    squares: float
+
+    def elements(self, leading: int) -> tuple[Integers, Integers]:
+        """Return the indices of the times with a positive amount, and the number of the element of each of them.
+
+        Neighbouring times of the grid belong to one element, whose time lies between them.
+
+        leading : number of amounts without a time
+        """
+        used = np.flatnonzero(self.amounts[leading:] > 0)
+        return used, np.cumsum(np.diff(used, prepend=used[:1]) > 1)
+
+    def number_of_unknowns(self, leading: int) -> int:
+        """Return the number of unknowns of the medium: amounts above 0, and the time of each element."""
+        elements = np.unique(self.elements(leading)[1]).size
+        return int(np.count_nonzero(self.amounts[:leading])) + 2 * elements
+
+    def target(self, measured: Array) -> Array:
+        """Return the measured values minus the part of the tangent that does not depend on the unknowns."""
+        tangent = self.tangent
+        return measured - tangent.predicted + tangent.columns @ self.amounts + tangent.signed @ self.shift
+
+
+def fit_elements(record: Record, times: Array, start: tuple[Array, Array] | None = None) -> ElementFit:
+    """Return the best medium of elements with given times.
+
+    start : first guesses of the amounts, and of offset and drift; None for those of the record
+    """
+    amounts, shift = record.start(times) if start is None else start
+    fit = _at(record, times, amounts, shift)
+    for _ in range(_ROUNDS):
+        target = fit.target(record.measured)
+        amounts, shift = non_negative(fit.tangent.columns, target, fit.tangent.signed)
+        expected = _sum_of_squares(target - fit.tangent.columns @ amounts - fit.tangent.signed @ shift)
+        exact = record.measured.size * (_EXACT * np.abs(record.measured).max()) ** 2
+        if fit.squares <= exact or expected > (1 - _STALLED) * fit.squares:
+            break
+        reached = _squares(record, times, amounts, shift)
+        if not reached <= (1 + _LINEAR) * expected + exact:
+            amounts, shift = _nonlinear(record, fit, amounts, shift, reached)
+            reached = _squares(record, times, amounts, shift)
+        if not reached < fit.squares:
+            break
+        fit = _at(record, times, amounts, shift)
+    return fit
+
+
+def with_free_times(record: Record, fit: ElementFit) -> ElementFit:
+    """Return the best medium of elements whose times are free, starting from a medium with times on a grid.
+
+    A time between two times of the grid appears as positive amounts of both. Such neighbours become one element. The
+    grid is kept, because the intervals need it, and the times that are found are added to it.
+    """
+    leading, grid = record.leading, fit.times
+    used, group = fit.elements(leading)
+    if not used.size:
+        return fit
+    amounts = fit.amounts[leading:][used]
+    sums = np.bincount(group, amounts)
+    logarithms = np.bincount(group, amounts * np.log(grid[used])) / sums
+    size, count, elements = np.abs(record.measured).max(), leading + sums.size, sums.size
+    first = np.append(fit.amounts[:leading], sums)
+    # Scale the unknowns so that a change of any of them by 1 changes the prediction by about its size. The logarithm of
+    # a time has the scale 1.
+    lengths = np.abs(fit.tangent.columns).max(axis=0)
+    lengths = np.append(lengths[:leading], [lengths[leading:][used][group == k].max() for k in range(elements)])
+    scales = np.concatenate([size / np.where(lengths > 0, lengths, size), np.ones(elements), record.shift_scales])
+
+    def values(unknowns: Array) -> tuple[Array, Array, Array]:
+        parts = np.split(unknowns * scales, [count, count + elements])
+        return np.exp(parts[1]), parts[0], parts[2]
+
+    def residual(unknowns: Array) -> Array:
+        return (record.predicted(*values(unknowns)) - record.measured) / size
+
+    def derivatives(unknowns: Array) -> Array:
+        times, amounts, shift = values(unknowns)
+        near = np.append(times, times * (1 + _NEAR))
+        tangent = record.tangent(near, np.append(amounts, np.zeros(elements)), shift)
+        by_amount, by_near_amount = tangent.columns[:, :count], tangent.columns[:, count:]
+        by_logarithm = amounts[leading:] * (by_near_amount - by_amount[:, leading:]) / _NEAR
+        return np.column_stack([by_amount, by_logarithm, tangent.signed]) * scales / size
+
+    low = np.concatenate([np.zeros(count), np.full(elements, np.log(grid[0])), np.full(fit.shift.size, -np.inf)])
+    high = np.concatenate(
+        [np.full(count, np.inf), np.full(elements, np.log(grid[-1])), np.full(fit.shift.size, np.inf)]
+    )
+    start = np.concatenate([first, np.clip(logarithms, np.log(grid[0]), np.log(grid[-1])), fit.shift]) / scales
+    found = _solution(residual, start, (low, high), derivatives)
+    times, amounts, shift = values(found)
+    if not _squares(record, times, amounts, shift) < fit.squares:
+        return fit
+    apart = (np.abs(np.log(np.divide.outer(grid, times))) > _SAME).all(axis=1)
+    all_times = np.append(grid[apart], times)
+    all_amounts = np.concatenate([amounts[:leading], np.zeros(np.count_nonzero(apart)), amounts[leading:]])
+    order = np.argsort(all_times)
+    return _at(record, all_times[order], np.append(all_amounts[:leading], all_amounts[leading:][order]), shift)
+
+
+def fit_springpot(record: Record, start: Springpot, shift: Array) -> tuple[Springpot, Array, Array]:
+    """Return the springpot that fits a record best, the fitted offset and drift, and the residuals.
+
+    start, shift : first guesses
+    """
+    size = np.abs(record.measured).max()
+    scales = record.shift_scales
+
+    def parameters(unknowns: Array) -> tuple[Springpot, Array]:
+        return Springpot(float(start.modulus * np.exp(unknowns[0])), float(unknowns[1])), unknowns[2:] * scales
+
+    def residual(unknowns: Array) -> Array:
+        springpot, shift = parameters(unknowns)
+        return (record.measured - record.predicted(*record.elements_of(springpot), shift)) / size
+
+    first = np.append([0.0, np.clip(start.exponent, 2 * _LEAST_EXPONENT, 2 * _LARGEST_EXPONENT - 1)], shift / scales)
+    low, high = np.full(first.size, -np.inf), np.full(first.size, np.inf)
+    low[1], high[1] = _LEAST_EXPONENT, _LARGEST_EXPONENT
+    found = _solution(residual, first, (low, high))
+    return *parameters(found), residual(found) * size
+
+
+def _nonlinear(record: Record, fit: ElementFit, amounts: Array, shift: Array, reached: float) -> tuple[Array, Array]:
+    """Return amounts, offset and drift that fit a record best, where only amounts that are positive may change.
+
+    fit : fit before
+    amounts, shift, reached : values that fit the tangent best, and their sum of squares; the amounts that are positive
+        in them or in `fit` may change
+    """
+    leading = record.leading
+    used = (amounts > 0) | (fit.amounts > 0)
+    used[:leading] = True
+    times, count = fit.times[used[leading:]], int(np.count_nonzero(used))
+    size = np.abs(record.measured).max()
+    lengths = np.abs(fit.tangent.columns[:, used]).max(axis=0)
+    scales = np.append(size / np.where(lengths > 0, lengths, size), record.shift_scales)
+
+    def residual(unknowns: Array) -> Array:
+        values = unknowns * scales
+        return (record.predicted(times, values[:count], values[count:]) - record.measured) / size
+
+    def derivatives(unknowns: Array) -> Array:
+        values = unknowns * scales
+        tangent = record.tangent(times, values[:count], values[count:])
+        return np.column_stack([tangent.columns, tangent.signed]) * scales / size
+
+    start = (amounts, shift) if reached < fit.squares else (fit.amounts, fit.shift)
+    first = np.append(start[0][used], start[1]) / scales
+    low = np.append(np.zeros(count), np.full(shift.size, -np.inf))
+    values = _solution(residual, first, (low, np.full(low.size, np.inf)), derivatives) * scales
+    best = np.zeros(amounts.size)
+    best[used] = values[:count]
+    return best, values[count:]
+
+
+def _solution(
+    residual: Callable[[Array], Array],
+    start: Array,
+    bounds: tuple[Array, Array],
+    derivatives: Callable[[Array], Array] | None = None,
+) -> Array:
+    """Return the unknowns that minimise the sum of squared residuals between bounds.
+
+    derivatives : derivatives of the residuals, shape (rows, unknowns); None for difference quotients
+    """
+    from scipy.optimize import least_squares  # this import takes long
+
+    found: Any = least_squares(
+        residual, start, jac=derivatives or "2-point", bounds=bounds, method="dogbox", ftol=_CLOSE, xtol=_CLOSE,
+        gtol=None, max_nfev=_EVALUATIONS, diff_step=_STEP,
+    )  # fmt: skip
+    return np.clip(found.x, *bounds)
+
+
+def _at(record: Record, times: Array, amounts: Array, shift: Array) -> ElementFit:
+    tangent = record.tangent(times, amounts, shift)
+    return ElementFit(times, amounts, shift, tangent, _sum_of_squares(record.measured - tangent.predicted))
+
+
+def _squares(record: Record, times: Array, amounts: Array, shift: Array) -> float:
+    return _sum_of_squares(record.measured - record.predicted(times, amounts, shift))
+
+
+def _sum_of_squares(residual: Array) -> float:
+    return float(residual @ residual)

@@ -16,6 +16,8 @@ from viscorough.basics.types import Array, Integers
 # Two times that differ by less than this share of their value count as equal. In a shorter interval, the change of a
 # load would be as small as its rounding error.
 _SAME_TIME = 1e-13
+# A first value above this share of the largest value is a step and not due to noise.
+_LARGEST_NOISE = 0.1
 # Two slopes of a load count as equal if their relative difference is at most _SAME_SLOPE. If a sample follows a turn of
 # the load after a time t, `shortest_interval` is at most _CLOSE · t.
 _SAME_SLOPE, _CLOSE = 1e-6, 10.0
@@ -150,13 +152,16 @@ class Load(ReadOnlyArrays):
         """Return the load with a ramp from zero before the first sample, if this sample is above zero by chance.
 
         A record that was shifted to zero before contact often begins slightly above zero, because of noise. This is
-        assumed if the first value is above zero, but not above the largest rise from a sample to the next. The ramp
-        then begins at zero, and lasts as long as the interval between the first two samples. Any other load is returned
-        unchanged: a larger first value is a step, as is a time that is given twice.
+        assumed if the first value is above zero, but neither above a tenth of the largest value nor above the largest
+        rise from a sample to the next. The ramp then begins at zero, and lasts as long as the interval between the
+        first two samples. Any other load is returned unchanged: a larger first value is a step, as is a time that is
+        given twice.
         """
         time, values = self.time, self.values
         lengths, rises = np.diff(time), np.diff(values)
-        if time.size < 2 or lengths[0] == 0 or not 0 < values[0] <= rises[lengths > 0].max():
+        if time.size < 2 or lengths[0] == 0:
+            return self
+        if not 0 < values[0] <= min(rises[lengths > 0].max(), _LARGEST_NOISE * values.max()):
             return self
         name = "depth" if self.by_depth else "force"
         return Load(np.append(2 * time[0] - time[1], time), **{name: np.append(0.0, values)})

@@ -80,9 +80,9 @@ def kinetics(
         `times`. Before the first sample there is no load. Forces are F ≥ 0, in N, and depths are in the curve's unit of
         length. If this unit is known, both may also have a unit (a text such as "5 mN", or a quantity of pint). A
         negative depth lifts the indenter above the plane of first contact. In a medium without an instantaneous
-        response (Newtonian, Kelvin-Voigt, Springpot), a first depth above 0 would need an infinite force. If it does
-        not exceed the largest rise from a sample to the next, it is taken to be noise: the depth then rises from 0 to
-        the first sample, within a time equal to the interval between the first two samples.
+        response (Newtonian, Kelvin-Voigt, Springpot), a first depth above 0 would need an infinite force. If it exceeds
+        neither a tenth of the largest depth nor the largest rise from a sample to the next, it is taken to be noise:
+        the depth then rises from 0 to the first sample, within the length of the interval between the first two.
     medium : Medium or float or str
         Medium, such as viscorough.Maxwell, or the viscosity η > 0 of a Newtonian medium. If the curve's unit of length
         is known, moduli, times and viscosities are in Pa, s and Pa s, and a text such as "2 kPa s" is allowed.

@@ -574,8 +574,17 @@ def _move(system, now, s, end):
 
 @njit(inner=True)
 def _released(system, now):
-    """Release the last spring in contact between two samples."""
+    """Release the last spring in contact between two samples.
+
+    Under a prescribed depth, further springs may be released at the same time, as when the motion of a parallel dashpot
+    turns. No spring can touch before them.
+    """
     now = _let_go(system, now)
+    while system.row.by_depth and now.count > 0:
+        value, _, rounding = _release(system, now)
+        if value <= rounding:
+            break
+        now = _let_go(system, now)
     if now.count > 0 and not system.row.by_depth:
         now = _balanced(system, now)
         if system.spectrum.viscosity > 0:

@@ -45,12 +45,13 @@ _FACTOR = re.compile(
 _TITLE = re.compile(
     r"(?:(?:the|all|measured|exported|surface|image|sample|map|of)\s+)*"
     r"(?:z|(?:z\W*)?(?:heights?|topograph(?:y|ie)|elevations?|höhen?|hoehen?|hauteurs?|values?|data|numbers))"
-    r"(?:\W*(?:values?|data|map))?(?:\s+(?:is|are))?(?:\s+in\s+|[\s/,;:=|-]*[\s/,;:=|\[({<-])[\s\"']*(\w+)[\s\"']*[\])}>]?",
+    r"(?:[\W_]*(?:values?|data|map))?(?:\s+(?:is|are))?"
+    r"(?:[\s_]+in[\s_]+|[\s/,;:=|_-]*[\s/,;:=|\[({<_-])[\s\"']*([^\W_]+)[\s\"']*[\])}>]?",
     re.IGNORECASE,
 )
 # Pattern of a unit of length in a text, other than the unit of a quantity such as "10 nm".
 _MENTION = re.compile(
-    r"(?<![\w./^])(?<!\d\s)([pnuµμmc]m|Å|[aA]ngstr[oö]ms?|[mM]icrons?|(?:[nN]ano|[mM]icro|[mM]illi|[cC]enti)?[mM]et(?:er|re)s?"
+    r"(?<![^\W_])(?<![./^])(?<!\d\s)([pnuµμmc]m|Å|[aA]ngstr[oö]ms?|[mM]icrons?|(?:[nN]ano|[mM]icro|[mM]illi|[cC]enti)?[mM]et(?:er|re)s?"
     r"|(?<=[\[(])m(?=[\])]))(?![\w/^²³]|\s*\d)"
 )
 # Pattern of a text that may state a factor of the heights.
@@ -304,7 +305,7 @@ def _mentions(line: str) -> list[tuple[str, str]]:
     if match and units.is_length(value := match[3].strip(" \t,;|\"'[](){}<>")):
         found.append(value)
     if re.search(r"(?i)units?(?![^\W\d_])|einheit|unité", line):
-        found += re.findall(r"(?<![\w'])m(?![\w'])", line)
+        found += re.findall(r"(?<![\w'])(?:[pnuµμmc]?m)(?![\w'])", line)
     return [(line.strip()[:60], unit) for unit in found]
 
 

@@ -73,7 +73,16 @@ STATED = [
         "unit (um)",
         "\\Exported image units: um",
     ],
-    *["Height [um]", "# Heights (µm)", "Z in um", "Z,um", "Topography / um", "All heights in microns", "Höhe in µm"],
+    *[
+        "Height [um]",
+        "# Heights (µm)",
+        "Z in um",
+        "Z,um",
+        "Topography / um",
+        "All heights in microns",
+        "Höhe in µm",
+        "Height_um",
+    ],
     *['{"unit": "um"}', '# {"z_unit": "um", "scanner": 5}', '{\n"heights": {"unit": "um"}\n}', "{'unit': 'um'}"],
 ]
 
@@ -105,7 +114,15 @@ def test_spacings_in_usual_forms_are_read(tmp_path, header):
 
 @pytest.mark.parametrize(
     "line",
-    ["exported as nm by hand", "[nm]", "Export as: nm", "<unit>nm</unit>", '{"out": {"scale": "nm"}}', "unit -> nm"],
+    [
+        "exported as nm by hand",
+        "[nm]",
+        "Export as: nm",
+        "<unit>nm</unit>",
+        '{"out": {"scale": "nm"}}',
+        "unit -> nm",
+        "1 unit = 1 nm",
+    ],
 )
 def test_unit_that_is_not_understood_is_named(tmp_path, line):
     (tmp_path / "a.txt").write_text(f"{line}\n1 2 3 1\n3 4 9 6\n2 5 7 3\n")

@@ -20,14 +20,16 @@ FOLLOWING = {"power_law": "power_law_control", "beta_lines": "exponent_small_hur
 def text():
     """Return the list of answers with <claim> for a claim's verdict and {row column} for a number."""
     template = (ROOT / "workflow/page/page.html.jinja").read_text(encoding="utf-8")
-    answer = template.split("<!DOCTYPE")[0] + re.search('<ol class="found">.*?</ol>', template, re.DOTALL)[0]
+    findings = re.search("({% set a = answers %}.*?)</section>", template, re.DOTALL)[1]
+    plain = "{% macro finding(name, heading, marks) %}{{ marks }} {{ caller() }}{% endmacro %}"
+    answer = template.split("{% macro picture")[0] + plain + findings
     marks = {name: f"<{name}>" for name in CLAIMS}
     shown = {
         "overall": marks,
         "case_counts": dict.fromkeys(marks, ""),
         "verdict_short": dict.fromkeys(marks.values(), ""),
     }
-    html = render(answer, "", {}, {}, conventions={}, a=FOUND, **shown)
+    html = render(answer, "", {}, {}, conventions={}, answers=FOUND, **shown)
     html = re.sub(r'<data [^>]*data-row="(\d+)" data-column="(\w+)"[^>]*>[^<]*</data>', r"{\1 \2}", html)
     return " ".join(re.sub("<.*?>", "", html).split()).replace("&lt;", "<").replace("&gt;", ">")
 

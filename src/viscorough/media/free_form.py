@@ -32,6 +32,8 @@ _FINER = 7
 # Largest number of refinements. A refinement must reduce the misfit to this share of the misfit before, and they end
 # below the last misfit, which no record needs.
 _REFINEMENTS, _LEAST_GAIN, _SMALLEST_MISFIT = 8, 0.98, 1e-11
+# Elements faster than the first row must reduce the root mean square of the errors to this share.
+_CLEARLY = 0.5
 # Elements that contribute less than this share of J or ψ to every sample are left out.
 _NEGLIGIBLE = 1e-13
 # Elements whose times differ by less than this share count as a single element. This changes J and ψ by 1e-9 of
@@ -121,14 +123,25 @@ def _refined(columns: Callable[[Array, Array], Array], singles: int, times: Arra
     times, values, size : times of the samples, their values, and the sizes to which the errors are relative
     """
     positive = times[times > 0]
-    grid = grid_of_times(positive[0], positive[-1])
+    whole = grid_of_times(positive[0], positive[-1])
+    # An element that is faster than the first row could fit the noise of this row with any strength. It is used only if
+    # it reduces the errors clearly.
+    known = _on_grid(columns, singles, times, values, size, whole[whole > 0.99 * positive[0]])
+    fit = _on_grid(columns, singles, times, values, size, whole)
+    return fit if _rms(fit.errors) < _CLEARLY * _rms(known.errors) else known
+
+
+def _on_grid(
+    columns: Callable[[Array, Array], Array], singles: int, times: Array, values: Array, size: Array, grid: Array
+) -> Fit:
+    """Return the Fit of samples with the times of a grid and of its refinements; see `_refined`."""
     best: Fit | None = None
     before = np.inf
     for _ in range(_REFINEMENTS + 1):
         matrix = columns(times, grid) / size[:, None]
         strengths = _non_negative(matrix, values / size)
         errors = matrix @ strengths - values / size
-        misfit = float(np.sqrt(np.mean(errors**2)))
+        misfit = _rms(errors)
         if best is not None and misfit > _LEAST_GAIN * before:
             break
         kept = (strengths * matrix.max(axis=0) > _NEGLIGIBLE)[singles:]
@@ -139,6 +152,10 @@ def _refined(columns: Callable[[Array, Array], Array], singles: int, times: Arra
         before, grid = misfit, _finer(grid, kept)
     assert best is not None
     return best
+
+
+def _rms(errors: Array) -> float:
+    return float(np.sqrt(np.mean(errors**2)))
 
 
 def _merged(strengths: Array, times: Array) -> tuple[Array, Array]:

@@ -42,6 +42,18 @@ def test_fit_smooths_noise(name):
     assert np.sqrt(np.mean((found / exact - 1) ** 2)) < 0.004
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_noise_makes_no_elements_faster_than_the_first_row(seed):
+    """Such an element could have any strength, so that the modulus at time 0 was wrong by orders of magnitude."""
+    solid = SPRINGS_AND_DASHPOTS["solid"]
+    noise = 1 + 0.01 * np.random.default_rng(seed).standard_normal(TIMES.size)
+    for table in (
+        CreepTable(TIMES, solid.creep_compliance(TIMES) * noise),
+        RelaxationTable(TIMES, solid.relaxation_modulus(TIMES) * noise),
+    ):
+        assert table.relaxation.instantaneous_modulus == pytest.approx(4.0, rel=0.1)
+
+
 def test_fit_misses_a_compliance_that_no_relaxing_medium_has():
     assert np.abs(fit_creep(TIMES, np.minimum(TIMES, 1.0)).errors).max() > 0.2
 

@@ -332,7 +332,10 @@ def _selected(lines: Sequence[str], heading: _Heading, indices: Sequence[int]) -
         if len(cells) != len(heading.columns):
             text = f"line {number + 1} ({line[:40]!r}): {len(cells)} cells, {len(heading.columns)} in the heading"
             raise ValueError(f"{text}; rows of equal length are needed")
-        kept[number] = ";".join(cells[index] or "nan" for index in indices)
+        chosen = [cells[index] or "nan" for index in indices]
+        if odd := [cell for cell in chosen if not (_NUMBER.fullmatch(cell) or cell.casefold() == "nan")]:
+            raise ValueError(f"line {number + 1}: {odd[0][:40]!r} is not a number")
+        kept[number] = ";".join(chosen)
     return kept
 
 

@@ -166,7 +166,7 @@ AMBIGUOUS = [
     *[f"{heading}\n0,1\n1,2\n" for heading in ("#DIV/0!,-1", "a,b", "# Units: ms, mN\nt,F", "t,F\n[Data]")],
     *["0,1\n# in kN\n1,2\n", "#N/A,1\n1,2\n2,3\n", "0,1\n#NV,2\n2,3\n3,4\n", "0,0,1,5\n1,0,2,5\n"],
     *["0,1\n1,\n2,3\n", "0,1\n1\n2,3\n", "0,1_0\n1,2_0\n", "", "time,force\n0,1\n", "t;F\n0;1,234.5\n1;2\n"],
-    *["0,1,2\n1,2,3\n", "t,F\n0,1\nt,F\n1,2\n", "t,F\n0,1\n1,nan\n"],
+    *["0,1,2\n1,2,3\n", "t,F\n0,1\nt,F\n1,2\n", "t,F\n0,1\n1,nan\n", "t,F\n00:01,1\n00:02,2\n"],
 ]
 
 

@@ -176,7 +176,8 @@ def _record(
 def _effect_of_offset(curve: LoadingCurve, record: Record, fit: RecordFit, shift: Shift) -> tuple[float, float]:
     """Return an assumed error of the zero of the depth, and the largest relative change of J that this error causes.
 
-    The assumed error is the scatter of the depth. If the scatter is not known, it is a share of the largest depth.
+    The assumed error is the scatter of the depth. If the scatter is not known, it is a share of the largest depth. The
+    change is infinite if no medium fits the record with this error, as for a scatter above the depth.
     """
     load, measured = record.load, record.measured
     assumed = _ASSUMED_OFFSET * float((load.values if load.by_depth else measured).max())
@@ -186,7 +187,10 @@ def _effect_of_offset(curve: LoadingCurve, record: Record, fit: RecordFit, shift
         load = Load(load.time, depth=load.values - assumed)
     else:
         measured = measured - assumed
-    other = fit_record(type(record)(curve, load, record.place, measured, shift), "table", np.nan)
+    try:
+        other = fit_record(type(record)(curve, load, record.place, measured, shift), "table", np.nan)
+    except ValueError:
+        return assumed, np.inf
     shown = fit.time >= record.first
     return assumed, float(np.abs(other.compliance[shown] / fit.compliance[shown] - 1).max())
 

@@ -315,6 +315,12 @@ def test_a_wrong_zero_changes_the_compliance_as_stated():
     assert f"would change J by up to {100 * change.max():.2g} %" in str(identified)
 
 
+def test_a_scatter_above_the_depth_leaves_the_zero_unknown():
+    """A zero that is wrong by more than the depth leaves no depth to fit."""
+    force, depth = record(MEDIA["solid"])
+    assert identify_medium(CURVE, force, TIMES, depth, scatter=10 * depth.max()).offset_effect == np.inf
+
+
 def test_forces_are_in_newtons_and_moduli_in_pascals():
     """The same numbers on a micrometre scale and on a scale of unit lengths."""
     disc = self_affine_disc(0.8, 17, rms=1e-6, diameter=1e-4, seed=1, length_unit="m")

@@ -50,6 +50,9 @@ _FEWEST_ELEMENTS = 100
 # ln F from the lowest force of mean errors (0) to the end of the curve (1). Missed features cause the largest
 # differences at light loads, because they touch first, and fine textures at middle loads.
 _CONTACTS, _LAST_CONTACT = 7, 0.55
+# Largest tolerance of the contacts of the full map. To a looser tolerance, their contact fractions are a few percent
+# too large, so that the curve would end too early.
+_CONTACT_TOLERANCE = 1e-2
 # Largest number of contacts that are added if the first do not suffice for a decision.
 _FURTHER_CONTACTS = 6
 # A contact at lighter load is added if ln F of the lightest contact exceeds that of the lowest force by more than this.
@@ -106,7 +109,7 @@ def curve_within(
     sampled = every_nth_point(indenter, steps[0])
     curve = compute(sampled, tolerance, until_fraction, until_force, part_of(progress, *ends[:2]))
     tolerance *= _share_of_depth(indenter, curve, sampled)
-    full_map = _FullMap(indenter, solver(tolerance))
+    full_map = _FullMap(indenter, solver(min(tolerance, _CONTACT_TOLERANCE)))
     last_force, rejected = until_force, ""
     for step, start, end in zip(steps[1:-1], ends[1:], ends[2:], strict=False):
         coarse, coarse_map, sampled = curve, sampled, every_nth_point(indenter, step)

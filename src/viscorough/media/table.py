@@ -276,15 +276,6 @@ class RelaxationTable(_Table):
         self._fit(fit, times, medium)
 
 
-def free_form_of_creep(times: Array, compliances: Array) -> FreeForm:
-    """Return the FreeForm that is fitted to samples of J, whatever its misfit.
-
-    times, compliances : times t ≥ 0, which increase, and J at these times, shape (samples,)
-    """
-    fit = fit_creep(times, compliances)
-    return FreeForm(fit.first, fit.second, fit.strengths, fit.times, float(times[0]), float(times[-1]))
-
-
 def _rows(table: _Table, name: str, unit: str) -> tuple[Array, Array]:
     """Return times and values of a table as arrays of floats, and store them.
 

@@ -339,6 +339,8 @@ def test_records_of_other_histories_that_show_nothing_are_refused():
     load = DEPTHS["ramp and hold"]
     with refused("record: no force"):
         identify_medium(FEWER_LEVELS, load, TIMES, np.zeros(TIMES.size))
+    with refused("record: no force"):
+        identify_medium(FEWER_LEVELS, Load([0.0, 60.0], depth=[0.0, 0.0]), TIMES, np.ones(TIMES.size))
     with refused("record: depth 11 .* beyond the curve's last level"):
         identify_medium(FEWER_LEVELS, Load([0.0, 60.0], depth=[0.0, 11.0]), TIMES, np.ones(TIMES.size))
     with refused("the zero of the depth is off by .* or more; allowed: errors below"):

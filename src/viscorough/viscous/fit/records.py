@@ -424,6 +424,8 @@ class ForceRecord(Record):
 
         in_contact : number of springs in contact at each measurement
         """
+        if not path.touches.size:  # the indenter never touches
+            return np.zeros((self.measured.size, 1 + times.size))
         in_contact = np.minimum(in_contact, path.touches.size)
         stiffness = self.stiffness[in_contact]
         spring = stiffness * path.depth[path.place] - self.moment[in_contact]

@@ -16,6 +16,7 @@ import re
 import shutil
 import subprocess
 import textwrap
+from collections import defaultdict
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -525,9 +526,16 @@ def law_errors():
     return f"{errors}\n{caption}\n\n{shares}"
 
 
-def published_results(records):
-    """Return the contents of docs/results/ in Markdown: the origin, figures and links to tables of every command.
+def _origin_text(record):
+    """Return the command, date, commit and machine of a record of docs/results/published.json."""
+    command = f"`{record['command']}`" if record["command"].startswith("make ") else record["command"]
+    return f"{command}, " + "{date}, commit {commit}, {processor}, {cores} cores".format(**record)
 
+
+def published_results(records):
+    """Return the contents of docs/results/ in Markdown: origins, figures and links to tables of every command.
+
+    The first origin holds for all files that no further origin names.
     records : content of docs/results/published.json
     """
     text = []
@@ -536,10 +544,13 @@ def published_results(records):
         figures, tables = ([file for file in files if (file.suffix == ".png") == shown] for shown in (True, False))
         pictures = [f"![{file.stem.replace('_', ' ')}](results/{file.name})\n" for file in figures]
         links = [f"- [{file.name}](results/{file.name})" for file in tables]
+        origins = defaultdict(list)
+        for file in files:
+            origins[_origin_text(records[file.name])].append(f"`{file.name}`")
         if files:
-            record = records[files[0].name]
-            origin = "`{command}`, {date}, commit {commit}, {processor}, {cores} cores.\n".format(**record)
-            text += [f"## make {command}\n", origin, *pictures, "Files:", *links, ""]
+            first, *others = origins
+            lines = [f"{first}.\n", *(paragraph(f"{', '.join(origins[other])}: {other}.") for other in others)]
+            text += [f"## make {command}\n", *lines, *pictures, "Files:", *links, ""]
     return "\n".join(text)
 
 

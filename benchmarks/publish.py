@@ -32,7 +32,7 @@ from viscorough.reference import exponent_alpha, exponent_beta, zeta_elastic, ze
 from viscorough_study.fits.zeta_laws import LAST
 from viscorough_study.performance import timing
 from viscorough_study.run.paper_data import read_paper
-from viscorough_study.verdicts.answer import answer
+from viscorough_study.verdicts.answer import answer, short_answer
 from viscorough_study.verdicts.claims import (
     HELD,
     counted_verdicts,
@@ -149,11 +149,60 @@ def answer_lines():
     return paragraph(f"**{answer(table)}**") + "\n" + paragraph(text)
 
 
+def short_answer_lines():
+    """Return the answer in three sentences, and the number of claims by verdict."""
+    return paragraph(f"**{short_answer(published_claims())}**") + "\n" + paragraph(scoreboard())
+
+
+# The main results: (claims whose verdicts are shown, what the paper says, what is found here with names of its numbers)
+RESULTS = (
+    (["equivalence"], "the viscous problem is related to the elastic contact by Radok's principle", "it is equivalent"),
+    (["collapse"], "curves of all forces, viscosities, sizes and rms heights collapse", "one curve for each H"),
+    (["beta"], "exponent β = H/(1 + H), “at least for H > 0.4”", "within {within:.2f} at H = 0.6 and 0.9"),
+    (
+        ["exponent_limit"],
+        "no claim for smaller H",
+        "{at_04:.2f} and {at_01:.2f} larger at H = 0.4 and 0.1 on the paper's grid. The verdict is on the limit of fine grids",
+    ),
+    (
+        ["coincide"],
+        "exponents of boundary elements and MDR nearly coincide",
+        "at H = 0.4 they differ by {coincide:.2f}, and by {equal:.2f} in the same range of X",
+    ),
+    (
+        ["master_curve", "one_constant"],
+        "all results follow Eq. 12 in region (b)",
+        "from H = 0.4 on up to one constant, {factors[0]} on vt/h or {factors[1]} on X",
+    ),
+    (
+        ["zeta_elastic", "zeta_viscous"],
+        "prefactor ζ of Eq. 4: {eq_4}; of Eq. 11 without Γ: {eq_11} (H = {hursts})",
+        "{zeta}",
+    ),
+    (["gamma"], "a factor 1/Γ(2 − α) in Eqs. 7 to 9", "not in Eqs. 1, 3 and 6, nor in direct integration"),
+    (
+        ["complete_contact"],
+        "region (c) is an almost complete contact",
+        "{wide} % in contact if the slope is 1 within {slopes[0]:g}, {narrow} % within {slopes[1]:g} ({narrow_hursts})",
+    ),
+)
+
+
+def results_table():
+    """Return the main results as a Markdown table."""
+    verdict_by_claim, numbers, rows = overall(published_claims()), found_numbers(), []
+    for names, paper, here in RESULTS:
+        # A run that was published before a claim was added has no verdict on it.
+        verdict = "; ".join(verdict_by_claim[name] for name in names if name in verdict_by_claim)
+        rows.append(f"| {paper.format(**numbers)} | {here.format(**numbers)} | {verdict} |")
+    return markdown_table("| the paper | here | verdict |", rows)
+
+
 # What was found, as a numbered list: {number: text of the item, with the names of its numbers}.
 FOUND = """
 The viscous problem is equivalent to the elastic problem of the same surface, for every surface and force, as the paper
 derives by Radok's principle. One elastic loading curve therefore gives the whole motion; to solve a contact problem in
-every time step is not necessary ([theory](docs/theory.md#the-correspondence)).
+every time step is not necessary ([theory](theory.md#the-correspondence)).
 
 For each Hurst exponent H a single curve, vt/h = X/κ(X), holds for all forces, viscosities, sizes and rms heights.
 Region (c) is for the paper an “almost complete” contact. It begins with {wide} % of the elements in contact if the
@@ -163,7 +212,7 @@ slope of the curves may differ from 1 by {slopes[0]:g}, and with {narrow} % at {
 On the paper's grid the exponent β is within {within:.2f} of H/(1 + H) at H = 0.6 and 0.9. It is {at_04:.2f} and
 {at_01:.2f} larger than H/(1 + H) at H = 0.4 and 0.1, where the paper makes no claim. There the exponent also depends on
 the range of X, and finer grids give access to smaller X{limit}
-([grid or surface](docs/verification.md#grid-or-surface)).
+([grid or surface](verification.md#grid-or-surface)).
 
 From H = 0.4 on, the discs follow Eq. 12 up to one constant for all H: a factor of {factors[0]} on vt/h, or of
 {factors[1]} on X. A root mean square of {residuals[0]:.0f} or {residuals[1]:.0f} % remains. At β = H/(1 + H) the
@@ -172,20 +221,20 @@ no law with this exponent describes the discs.
 
 The factor 1/Γ(2 − α) in Eqs. 7 to 9 and 12 does not follow from the paper's Eqs. 1, 3 and 6, and neither direct
 integration in time nor the paper's MDR has it. It changes neither the exponent nor the collapse
-([theory](docs/theory.md#the-factor-of-eqs-7-to-9)).
+([theory](theory.md#the-factor-of-eqs-7-to-9)).
 
 The MDR gives β = H/(1 + H) from H = 0.4 on. At H = 0.4 it differs from boundary elements by {coincide:.2f}, and by
 {equal:.2f} if both are fitted in the same range of X. With one parameter fitted it gives mean velocities in region (b)
 to {mdr:.0f} %, at 7 to 20 % of the cost of boundary elements. Its “huge advantage” in time was larger in the paper,
 where every time step of the boundary elements was a contact problem. It gives neither contact areas nor the motion of a
-single surface ([explained](docs/verification.md#the-reduction-of-dimensionality)).
+single surface ([explained](verification.md#the-reduction-of-dimensionality)).
 
 Beyond the paper: the rough interface and the whole body act as two springs in series. Near X = 1 the stiffness of the
-interface is F/({u0[0]:.2f} h) to F/({u0[1]:.2f} h), with the force F ([theory](docs/theory.md#two-springs-in-series)).
+interface is F/({u0[0]:.2f} h) to F/({u0[1]:.2f} h), with the force F ([theory](theory.md#two-springs-in-series)).
 
 On a grid of 257 elements across, `viscorough.indent` computes the motion to 0.1 % in about 0.1 s. A finer grid changes
 the velocity by {grid} %. Other public solvers take {others[0]:.0f} to {others[1]} times as long
-([performance](docs/performance.md)).
+([performance](performance.md)).
 """
 
 
@@ -558,11 +607,12 @@ def tables():
     """Return {(page, name): text} of the generated parts, between marks, of README.md and pages of docs/."""
     records = json.loads((ROOT / "docs/results/published.json").read_text(encoding="utf-8"))
     return {
-        ("README.md", "answer"): answer_lines(),
+        ("README.md", "answer"): short_answer_lines(),
         ("docs/index.md", "answer"): answer_lines(),
         ("docs/verdicts.md", "answer"): answer_lines(),
         ("docs/verdicts.md", "sentences"): sentences(),
-        ("README.md", "findings"): found(),
+        ("README.md", "results"): results_table(),
+        ("docs/index.md", "findings"): found(),
         ("README.md", "time"): time_sentence(),
         ("docs/verdicts.md", "verdicts"): verdicts(),
         ("docs/performance.md", "sufficient models"): sufficient_models(),

@@ -4,7 +4,6 @@ import json
 import os
 import re
 from pathlib import Path
-from pkgutil import resolve_name
 
 import click
 import pandas as pd
@@ -15,15 +14,9 @@ from PIL import Image
 from support.documentation import ROOT, read
 from support.workflow import FIGURES
 from support.workflow import TABLES as MADE
-from viscorough_study.comparisons import mdr_equivalence
-from viscorough_study.fits import fit_table, interface
 from viscorough_study.performance.methods import METHODS
-from viscorough_study.run import rule_costs
 
 TABLES = publish.tables()
-# {table: columns} of rules with separate scripts
-OF_SCRIPTS = {"rule_costs": rule_costs.COLUMNS, "scaling": fit_table.COLUMNS, "interface": interface.COLUMNS}
-OF_SCRIPTS |= {"interface_curves": interface.CURVES, **mdr_equivalence.TABLES}
 
 
 @pytest.mark.parametrize(("page", "name"), TABLES)
@@ -75,15 +68,6 @@ def test_published_files_state_their_origin():
     names = {path.name for path in folder.iterdir()} - {"published.json"}
     assert set(json.loads(read(folder / "published.json"))) == names
     assert sum(path.stat().st_size for path in folder.iterdir()) <= 3e6
-
-
-@pytest.mark.parametrize("name", sorted(name for name in MADE if (ROOT / f"docs/results/{name}.csv").is_file()))
-def test_published_tables_have_the_columns_of_the_code(name):
-    columns = OF_SCRIPTS.get(name)
-    if columns is None:
-        module = MADE[name]["function"].rpartition(".")[0]
-        columns = resolve_name(MADE[name].get("columns", f"{module}.COLUMNS"))
-    assert set(pd.read_csv(ROOT / f"docs/results/{name}.csv")) == set(columns)
 
 
 def test_published_tables_have_the_methods_of_the_code():

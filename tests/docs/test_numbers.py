@@ -202,8 +202,8 @@ def depth_error_on_coarse_grid():
 
 # {page: {sentence: function that returns the text or the numbers for its brackets}}
 QUOTED = {
+    "docs/index.md": {"at {:.0f} to {:.0f} % of the cost": reduction_costs},
     "README.md": {
-        "at {:.0f} to {:.0f} % of the cost": reduction_costs,
         "surfaces, in {:.0f} minutes": minutes_of_paper,
     },
     "docs/verification.md": {

@@ -8,7 +8,7 @@ import pandas as pd
 import xarray as xr
 
 from support.cf import violations
-from support.workflow import FIGURES, TABLES, TEST, copy_kernels, jobs, snakemake
+from support.workflow import FIGURES, ROOT, TABLES, TEST, copy_kernels, jobs, snakemake
 from viscorough.surfaces.self_affine import cut_disc
 
 ALL = [name for name, rule in TABLES.items() if not rule.endswith("_measured")]  # tables of the default run
@@ -25,6 +25,15 @@ def test_every_figure_and_table_is_made(finished_once):
             assert set(nc.variables) == set(csv.columns)
             assert nc.attrs["source"].startswith("viscorough ")
     assert (results / "tables/validation_passed.txt").read_text().startswith("sphere force\n")
+
+
+def test_published_tables_have_the_columns_of_the_code(finished_once):
+    """A table that lacks a new column would leave the pages of docs/ behind the code."""
+    published = {path.stem: path for path in (ROOT / "docs/results").glob("*.csv") if path.stem in ALL}
+    assert len(published) > 20
+    for name, path in published.items():
+        made = finished_once / f"results/tables/{name}.csv"
+        assert set(pd.read_csv(path)) == set(pd.read_csv(made)), name
 
 
 def test_files_follow_the_cf_conventions(finished_once):

@@ -162,7 +162,7 @@ RESULTS = (
     (
         ["exponent_limit"],
         "no claim for smaller H",
-        "{at_04:.2f} and {at_01:.2f} larger at H = 0.4 and 0.1 on the paper's grid. The verdict is on the limit of fine grids",
+        "{at_04:.2f} and {at_01:.2f} larger at H = 0.4 and 0.1 on the paper's grid; the verdict is on finer grids",
     ),
     (
         ["coincide"],

@@ -1,9 +1,14 @@
-"""Collect the contents of the page from the tables and loading curves of a run."""
+"""Make the page from the tables, figures and loading curves of a run."""
 
 from pathlib import Path
 
+import yaml
+
 from viscorough_study.page import answers, content
+from viscorough_study.page.calculator import calculator
+from viscorough_study.page.chart import chart
 from viscorough_study.page.discussion import QUANTITIES, discussion
+from viscorough_study.page.render import embedded_png, render
 from viscorough_study.page.results import read_published, read_results
 from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
 from viscorough_study.run.readable import readable
@@ -11,6 +16,29 @@ from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.run.tables import read_recorded
 from viscorough_study.verdicts.answer import answer, short_answer
 from viscorough_study.verdicts.claims import findings
+
+
+def page_of(project, discs, figures, *, fraction_min, **run):
+    """Return the HTML of the page.
+
+    project : folder of the project, which contains the templates, the captions, published numbers and verdicts, and the
+        picture of the rules
+    discs : NetCDF file with the loading curves of all discs of the run (ensembles.pool)
+    figures : paths of the figures; the name of a file without suffix is the name of the figure
+    fraction_min : least share of the realizations behind a mean of the interactive Figure 2
+    run : further arguments of `contents_of`
+    """
+    folder, figures = project / "workflow/page", {Path(path).stem: path for path in figures}
+    captions = {name: project / f"workflow/report/figures/{name}.rst" for name in figures}
+    template, style = ((folder / name).read_text("utf-8") for name in ("page.html.jinja", "style.css"))
+    contents = contents_of(project, discs, **run)
+    parts = {
+        "alternative": yaml.safe_load((folder / "figures.yaml").read_text("utf-8")),
+        "calculator": calculator(folder),
+        "chart": chart(folder, discs, contents["conventions"], fraction_min),
+        "rules": embedded_png((project / "docs/rules.png").read_bytes()),
+    }
+    return render(template, style, figures, captions, **parts, **contents)
 
 
 def contents_of(project, discs, lines, *, tables, claims, numbers, made_by):

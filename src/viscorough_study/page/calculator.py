@@ -8,12 +8,12 @@ from viscorough.law.calibrated_law import ACROSS, interface_calibration
 from viscorough.reference import one_element_stiffness
 
 
-def calculator(section, script):
+def calculator(folder):
     """Return the calculator as HTML: a section of the page, the constants of the penetration law, and a script.
 
-    section : HTML of the section
-    script : JavaScript of the calculation
+    folder : folder of the templates of the page
     """
+    section, script = ((folder / name).read_text("utf-8") for name in ("calculator.html", "calculator.js"))
     law = f'<script id="law" type="application/json">{json.dumps(law_table())}</script>'
     return Markup(f"{section}{law}\n<script>\n{script}</script>\n")
 

@@ -17,12 +17,14 @@ from viscorough_study.run.hurst_colors import hurst_color
 DIGITS = 4  # significant digits of the numbers in the page
 
 
-def chart(discs, conventions, fraction_min, *, library, style, script):
-    """Return the chart as HTML: its data, the library with its style, and a script that draws it.
+def chart(folder, discs, conventions, fraction_min):
+    """Return the chart as HTML: the style of uPlot, the data of the curves, uPlot, and the script that draws them.
 
+    folder : folder of the templates of the page
     discs, conventions, fraction_min : see `chart_data`
-    library, style, script : texts of uPlot.iife.min.js, uPlot.min.css and chart.js
     """
+    names = ("uplot/uPlot.min.css", "uplot/uPlot.iife.min.js", "chart.js")
+    style, library, script = ((folder / name).read_text("utf-8") for name in names)
     data = json.dumps(chart_data(discs, conventions, fraction_min), separators=(",", ":"))
     parts = f'<style>\n{style}</style>\n<script id="curves" type="application/json">{data}</script>\n'
     return Markup(f"{parts}<script>\n{library}</script>\n<script>\n{script}</script>\n")

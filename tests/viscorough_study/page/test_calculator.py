@@ -14,8 +14,9 @@ from viscorough.law.calibrated_law import penetration_law
 from viscorough.viscous.law_estimate import estimate
 from viscorough_study.page.calculator import calculator, law_table
 
-SCRIPT = (ROOT / "workflow/page/calculator.js").read_text(encoding="utf-8")
-SECTION = (ROOT / "workflow/page/calculator.html").read_text(encoding="utf-8")
+FOLDER = ROOT / "workflow/page"
+SCRIPT = (FOLDER / "calculator.js").read_text(encoding="utf-8")
+SECTION = (FOLDER / "calculator.html").read_text(encoding="utf-8")
 NODE = shutil.which("node")
 FIELDS = ("hurst", "rms", "diameter", "force", "viscosity", "time")
 
@@ -73,7 +74,7 @@ def shown(tmp_path, **entered):
         f'document.querySelector("[name={name}]").dispatchEvent(new Event("input", {{bubbles: true}}));'
         for name, value in entered.items()
     )
-    html = f"<!DOCTYPE html><meta charset=utf-8><title>-</title>{calculator(SECTION, SCRIPT)}<script>{events}</script>"
+    html = f"<!DOCTYPE html><meta charset=utf-8><title>-</title>{calculator(FOLDER)}<script>{events}</script>"
     (tmp_path / "page.html").write_text(html, encoding="utf-8")
     return re.search(r"<output [^>]*>(.*?)</output>", opened(tmp_path / "page.html"))[1]
 

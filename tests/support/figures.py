@@ -125,6 +125,6 @@ FROM_TABLES = {  # arguments of the figures that are drawn from tables alone
     "media": (media_table(),),
     "reduction": (published("reduction"),),
     "sizes": (published("sizes"), SHOWN),
-    "speed": (published("one_surface"), published("mean_accuracy"), published("methods"), OTHER_SOLVERS),
+    "speed": (*map(published, ("one_surface", "mean_accuracy", "methods", "fine_velocities")), OTHER_SOLVERS),
     "validation": (published("validation"),),
 }

@@ -60,6 +60,10 @@ VELOCITIES = {
     "height_share": ("mean square height of the waves on the grid of the paper, over that of all waves", "1"),
     **described("velocity", "the quantity at X on the finest grid, geometric mean over the discs"),
     **described("limit", "the quantity for an infinitely fine grid; empty if the differences need not converge"),
+    "error": ("standard error of the mean logarithm of the quantity on the finest grid", "1"),
+    "deviation": ("standard deviation of the logarithm of the quantity between discs, on the finest grid", "1"),
+    "processor_s": ("processor time of a disc on the finest grid", "s"),
+    "sum_s": ("processor time of all discs of the sum", "s"),
 }
 COSTS = {
     "hurst": _LABELS["hurst"],
@@ -243,7 +247,8 @@ def _velocities(grids, quantity, hurst, elements_min, seed):
         matrix = np.zeros((len(finest.x), len(chosen)))
         matrix[[_position(finest.x, x) for x in chosen], np.arange(len(chosen))] = 1.0
         levels = [curves.level(quantity, matrix) for curves in grids[: position + 1]]
-        for x, estimate in zip(chosen, estimates(levels, seed), strict=True):
+        for i, (x, estimate) in enumerate(zip(chosen, estimates(levels, seed), strict=True)):
+            numbers, seconds = _spent(levels[estimate.base :])
             yield {
                 "x": x,
                 "across": finest.across,
@@ -252,7 +257,20 @@ def _velocities(grids, quantity, hurst, elements_min, seed):
                 "height_share": present / (present + missing),
                 **three_columns("velocity", np.exp([estimate.value, estimate.low, estimate.high])),
                 **three_columns("limit", np.exp(estimate.limit)),
+                "error": estimate.error,
+                "deviation": levels[-1].fine[:, i].std(ddof=1),
+                "processor_s": levels[-1].seconds[0],
+                "sum_s": float(numbers @ seconds),
             }
+
+
+def _spent(levels):
+    """Return the numbers of discs of a sum, and processor times of a disc on its first grid and of a pair beyond.
+
+    levels : grids of the sum, from coarse to fine
+    """
+    numbers = np.array([len(level.fine) for level in levels])
+    return numbers, np.array([levels[0].seconds[0]] + [sum(level.seconds) for level in levels[1:]])
 
 
 def _costs(grids, elements_min):
@@ -266,8 +284,7 @@ def _costs(grids, elements_min):
         base = starting_grid([level.one(0) for level in levels])
         deviations = [levels[base].fine.std(ddof=1)]
         deviations += [(level.fine - level.coarse).std(ddof=1) for level in levels[base + 1 :]]
-        seconds = np.array([levels[base].seconds[0]] + [sum(level.seconds) for level in levels[base + 1 :]])
-        numbers = np.array([level.fine.size for level in levels[base:]])
+        numbers, seconds = _spent(levels[base:])
         optimal = optimal_surfaces(np.square(deviations), seconds, HALF_WIDTH)
         half_width = mean_error([level.one(0) for level in levels], base)[1]
         # Plain averaging on the finest grid, with the same half-width by the normal distribution

@@ -90,6 +90,17 @@ def test_cost_of_the_sum_is_compared_with_plain_averaging(made):
     assert first["across"].tolist() == list(GRIDS)
 
 
+def test_cost_of_a_velocity_is_the_cost_of_all_discs_of_its_sum(made):
+    velocities = made["fine_velocities"].query("quantity == 'whole' and across == 257")
+    assert velocities["processor_s"].tolist() == pytest.approx([257**2 * 1e-6] * len(velocities))
+    for row in velocities.to_dict("records"):
+        first = GRIDS.index(row["base"])
+        sizes = zip(SURFACES[first:], GRIDS[first:], (0, *GRIDS[first:]), strict=False)
+        assert row["sum_s"] == pytest.approx(sum(n * (fine**2 + coarse**2) for n, fine, coarse in sizes) * 1e-6)
+        assert row["deviation"] == pytest.approx(-0.05 * np.log(row["x"]), rel=0.4)  # of 25 discs
+        assert row["error"] == pytest.approx(-0.05 * np.log(row["x"]) / np.sqrt(SURFACES[first]), rel=0.2)
+
+
 @pytest.mark.parametrize(
     ("limit", "rise", "expected"),
     [

@@ -584,7 +584,7 @@ def _origin_text(record):
 def published_results(records):
     """Return the contents of docs/results/ in Markdown: origins, figures and links to tables of every command.
 
-    The first origin holds for all files that no further origin names.
+    The first origin holds for most files; further origins name their files.
     records : content of docs/results/published.json
     """
     text = []
@@ -597,8 +597,9 @@ def published_results(records):
         for file in files:
             origins[_origin_text(records[file.name])].append(f"`{file.name}`")
         if files:
-            first, *others = origins
-            lines = [f"{first}.\n", *(paragraph(f"{', '.join(origins[other])}: {other}.") for other in others)]
+            most = max(origins, key=lambda origin: len(origins[origin]))
+            others = [f"{', '.join(names)}: {origin}." for origin, names in origins.items() if origin != most]
+            lines = map(paragraph, [f"{most}.", *others])
             text += [f"## make {command}\n", *lines, *pictures, "Files:", *links, ""]
     return "\n".join(text)
 

@@ -26,7 +26,7 @@ def plot_exponent(scaling, fine_exponents, conventions, hurst_range):
     figure, axes = style.new_subplots(82, width=style.NARROW)
     axes.axvspan(*hurst_range, color="0.94", linewidth=0)
     text = {"color": style.GREY, "ha": "right", "transform": axes.transAxes}
-    axes.text(0.98, 0.04, "where the paper finds\nEq. 10 accurate", **text)
+    axes.text(0.94, 0.04, "where the paper finds\nEq. 10 accurate", **text)
     lines = fits(scaling, conventions, source="lines", case_group="base", rms_convention="line")
     band = axes.fill_between(lines["hurst"], lines["beta_low"], lines["beta_high"], color=style.PALE, linewidth=0)
     (solid,) = axes.plot(lines["hurst"], lines["beta"], color="black")

@@ -54,6 +54,7 @@ def answers(results):
         "spread": extremes("power_law", "value"),
         "beta": cases("beta"),
         "lines": farthest("beta_lines"),
+        "limit": cases("exponent_limit"),
         "coincide": farthest("coincide"),
         "elastic": cases("zeta_elastic"),
         "viscous": cases("zeta_viscous"),

@@ -52,13 +52,13 @@ def short_answer(table):
     collapse = COLLAPSE[verdicts["collapse"]]
     if verdicts["equivalence"] and verdicts["collapse"]:
         collapse = (
-            "The viscous problem is equivalent to the elastic one, and for each Hurst exponent H one curve holds for all "
-            "forces, viscosities, sizes and rms heights"
+            "The viscous problem is equivalent to the elastic one, and for each Hurst exponent H one curve holds for "
+            "all forces, viscosities, sizes and rms heights"
         )
     cases, parts = _exponents(table, "beta", "discs"), []
     if holding := _hursts(cases, HELD):
         within = np.ceil(100 * max(abs(case["difference"]) for case in cases.values() if case["verdict"] in HELD)) / 100
-        parts.append(f"is H/(1 + H) within {within:.2f} at H = {_joined(holding)}")
+        parts.append(f"is H/(1 + H) within {within:.2f} where the paper claims it, at H = {_joined(holding)}")
     for sign, word in ((1, "larger"), (-1, "smaller")):
         apart = [
             f"by {abs(case['difference']):.2f} at {hurst:g}"

@@ -21,7 +21,14 @@ from support.workflow import (
 from viscorough_study.ensembles.surface_files import read_surfaces
 
 LAST = {"tabulate_rule_costs", "make_page"}  # these rules run again after any change
-BOUNDARY_ELEMENTS = {"indent_surfaces", "compare_direct", "compare_reduction", "compare_exact", "measure_methods"}
+BOUNDARY_ELEMENTS = {
+    "indent_nested",
+    "indent_surfaces",
+    "compare_direct",
+    "compare_reduction",
+    "compare_exact",
+    "measure_methods",
+}
 BOUNDARY_ELEMENTS |= {"map_failures", "compare_level_placement", "measure_surfaces", "vary_settings"}
 BOUNDARY_ELEMENTS |= {"compare_histories"}
 

@@ -6,13 +6,14 @@ from support.workflow import TEST, jobs, plan, snakemake
 
 
 @pytest.mark.parametrize(
-    ("name", "indent_surfaces", "reduce_lines"),
-    [("config", 4 * (2 + 1) + 3, 22), ("paper", 4 * (8 + 8) + 4, 102), ("test", 2 * (1 + 1) + 2, 2 * 2 + 1)],
+    ("name", "indent_surfaces", "reduce_lines", "indent_nested"),
+    [("config", 4 * (2 + 1) + 3, 22, 20), ("paper", 4 * (8 + 8) + 4, 102, 20), ("test", 2 * (1 + 1) + 2, 2 * 2 + 1, 4)],
 )
-def test_every_scale_has_a_plan(unmade, name, indent_surfaces, reduce_lines):
+def test_every_scale_has_a_plan(unmade, name, indent_surfaces, reduce_lines, indent_nested):
     planned = plan(unmade, "--configfile", f"config/{name}.yaml")
     assert (planned.pop("indent_surfaces"), planned.pop("reduce_lines")) == (indent_surfaces, reduce_lines)
     assert planned.pop("generate_discs") == indent_surfaces
+    assert planned.pop("indent_nested") == indent_nested
     assert planned.pop("aggregate_curves") == 4
     assert set(planned.values()) == {1}
     assert {"require_accuracy", "fit_power_laws", "judge_claims", "make_page"} < set(planned)

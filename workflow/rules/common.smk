@@ -232,7 +232,7 @@ def benchmark_files(without=()):
     # module may have further rules, which are in another folder. Also not documented: both functions of wildcards, which
     # understand the regular expressions that Snakemake adds to the names of files.
     own = [rule for rule in workflow.rules if rule.benchmark and Path(rule.basedir).is_relative_to(WORKFLOW)]
-    jobs = [job | {"format": "png"} for job in cases.pool_jobs(CASES)]
+    jobs = [job | {"format": "png"} for job in cases.pool_jobs(CASES)] + [{"nested": name} for name in NESTED]
     files = {}
     for rule in (rule for rule in own if rule not in without):
         described = [job for job in jobs if get_wildcard_names(rule.benchmark) <= job.keys()]

@@ -116,7 +116,7 @@ def test_tooltip_of_every_number_names_its_rule_and_the_script(page):
 def test_answer_states_no_numbers_outside_the_tables(page, tables):
     """Other numbers are equation numbers, a factor in the findings, and numbers of cases. Settings are in a table."""
     assert sum(section == "answer" for section, *_ in page.numbers) > 20
-    text = re.sub(r"Eqs?\. \d+(, \d+)*( (and|to) \d+)?|Figure \d|slope 1|at all H", "", page.texts["answer"])
+    text = re.sub(r"Eqs?\. \d+(, \d+)*( (and|to) \d+)?|Fig(ure|\.) \d|slope 1|at all H", "", page.texts["answer"])
     text = re.sub(r"\(\d+ of \d+ cases[^)]*\)|In the published run[^.]*\.md\)[^.]*\.", "", text)
     for setting in tables["sufficient_models"]["setting"].dropna():
         text = text.replace(setting, "")

@@ -6,6 +6,8 @@ import campaign
 import pytest
 from click.testing import CliRunner
 
+pytestmark = pytest.mark.long
+
 
 @pytest.mark.parametrize(
     ("family", "count"),

@@ -5,6 +5,8 @@ import fuzz_cases
 import pytest
 from file_cases import generators
 
+pytestmark = pytest.mark.long
+
 
 @pytest.fixture(scope="session")
 def loaded():

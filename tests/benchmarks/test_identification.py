@@ -4,9 +4,12 @@ import dataclasses
 
 import identification
 import pandas as pd
+import pytest
 from click.testing import CliRunner
 
 from viscorough import Newtonian
+
+pytestmark = pytest.mark.long
 
 
 def test_coverage_has_a_row_for_every_case_whatever_the_number_of_processes(tmp_path, monkeypatch):

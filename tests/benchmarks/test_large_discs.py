@@ -10,6 +10,8 @@ from click.testing import CliRunner
 
 from support.figures import drawn_points, published, whole_on_page
 
+pytestmark = pytest.mark.long
+
 
 def test_discs_from_coarse_to_fine_are_in_the_table(tmp_path, monkeypatch):
     monkeypatch.setattr(large_discs, "ELEMENTS", (17, 33, 513))

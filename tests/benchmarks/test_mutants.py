@@ -7,6 +7,8 @@ from collections import Counter
 import mutants as campaign
 import pytest
 
+pytestmark = pytest.mark.long
+
 SOURCE = """\
 def half(x: int | None) -> float | None:
     return x / 2

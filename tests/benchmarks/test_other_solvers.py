@@ -21,6 +21,8 @@ from support.workflow import HANGS, ROOT
 from viscorough import Indenter, indent
 from viscorough_study.run.tables import read_recorded
 
+pytestmark = pytest.mark.long
+
 
 @pytest.fixture(scope="module")
 def indenter():

@@ -11,6 +11,8 @@ import viscorough
 from support.command_line import python
 from support.documentation import ROOT
 
+pytestmark = pytest.mark.long
+
 LIBRARY = ROOT / "src/viscorough"
 REFERENCE = "".join(page.read_text() for page in (ROOT / "docs/reference").glob("*.md"))
 PUBLIC = {"reference", *re.findall(r"^\.\. auto(?:function|class|exception):: (\w+)$", REFERENCE, re.MULTILINE)}

@@ -12,6 +12,8 @@ import xarray as xr
 
 from support.workflow import HANGS, ROOT, copy_project, environment, merged, read_settings, settings_file
 
+pytestmark = pytest.mark.long
+
 LONG = {
     "discs": {"hurst": [0.9], "realizations": 2, "combinations": read_settings("config")["discs"]["combinations"][:1]},
     "lines": {"hurst": [0.9], "points": 16384, "realizations": 60, "batch": 15},

@@ -13,6 +13,8 @@ from support.tables import read_table
 from support.workflow import TEST, jobs, plan, settings_file, snakemake
 from viscorough.surfaces.self_affine import self_affine_disc
 
+pytestmark = pytest.mark.long
+
 SCANS = {"ground_a", "ground_b", "polished_c"}
 MADE = {"prepare_measured", "indent_surfaces", "aggregate_curves", "evaluate_measured", "plot_measured"}
 MADE |= {"press_measured"}

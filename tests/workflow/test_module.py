@@ -24,6 +24,8 @@ from support.workflow import (
     snakemake,
 )
 
+pytestmark = pytest.mark.long
+
 OTHER = """
 module viscorough:
     snakefile: "{snakefile}"

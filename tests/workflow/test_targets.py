@@ -20,6 +20,7 @@ def test_every_scale_has_a_plan(unmade, name, indent_surfaces, reduce_lines, ind
     assert 2 * indent_surfaces + reduce_lines + sum(planned.values()) <= (110 if name == "config" else 300)
 
 
+@pytest.mark.long
 def test_figure_plans_only_the_jobs_it_needs(unmade):
     assert plan(unmade, *TEST, "--", "figure_1") == {"generate_examples": 1, "plot_surfaces": 1}
     assert plan(unmade, *TEST, "--", "results/figures/fig1_surfaces.pdf") == {

@@ -114,6 +114,7 @@ def test_steps_down_that_viscous_media_carry():
     assert receding_from(KelvinVoigt(2.0, 5.0), [1.0, 1.0, held - 1e-3, held - 1e-3], times) == 1.0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["springpot", "table"])
 def test_decrease_is_where_dense_sampling_finds_it(name):
     """Loaded at once, held and unloaded slowly: the first time at which a dense sampling of Φ decreases."""

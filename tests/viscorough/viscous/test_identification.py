@@ -227,6 +227,7 @@ FORCES = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore::viscorough.basics.errors.AccuracyWarning")
 @pytest.mark.parametrize(("history", "name"), FORCES)
 def test_exact_forces_give_the_compliance(history, name):
@@ -238,6 +239,7 @@ def test_exact_forces_give_the_compliance(history, name):
     assert identified.misfit < (1e-3 if name == "table" else 2e-4) * force.max()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["kelvin-voigt", "solid", "prony"])
 def test_exact_depths_of_a_receding_contact_give_the_compliance(name):
     force = 10 / float(MEDIA[name].creep_compliance(TIMES[-1]))
@@ -263,6 +265,7 @@ def test_receding_records_without_visible_delayed_creep_are_fitted(name, noise):
     assert identified.compliance[-1] == pytest.approx(exact, rel=0.5 if noise else 0.01)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("history", ["ramp and hold", "force curve"])
 def test_springpots_are_fitted_to_forces(history):
     force = kinetics(FEWER_SPRINGS, depth=DEPTHS[history], medium=MEDIA["springpot"], times=TIMES).force
@@ -270,6 +273,7 @@ def test_springpots_are_fitted_to_forces(history):
     assert (medium.modulus, medium.exponent) == pytest.approx((2.0, 0.4), rel=1e-4)
 
 
+@pytest.mark.long
 def test_springpots_are_fitted_to_receding_depths():
     load = Load([0.0, 2.0, 30.0, 60.0], force=[0.0, 2.0, 2.0, 0.1])
     depth = kinetics(FEWER_SPRINGS, load, MEDIA["springpot"], TIMES).depth
@@ -277,6 +281,7 @@ def test_springpots_are_fitted_to_receding_depths():
     assert (medium.modulus, medium.exponent) == pytest.approx((2.0, 0.4), rel=1e-4)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("load", "name"), [("hold", "solid"), ("hold", "newtonian"), ("retract", "prony"), ("unload", "solid")]
 )
@@ -288,6 +293,7 @@ def test_intervals_of_other_records_hold(load, name):
     assert cell["scatter"] == pytest.approx(1, abs=0.3)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "load"), [("solid", "step"), ("solid", "hold"), ("newtonian", "hold"), ("kelvin-voigt", "hold")]
 )

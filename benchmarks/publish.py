@@ -166,36 +166,33 @@ RESULTS = (
     (
         ["exponent_limit"],
         "no claim for smaller H",
-        "larger by {at_04:.2f} and {at_01:.2f} at H = 0.4 and 0.1 on the paper's grid; β is {fine} at smaller X on "
-        "fine grids, where H/(1 + H) is {eq_fine}",
+        "larger by {at_04:.2f} and {at_01:.2f} at H = 0.4 and 0.1; β is {fine} at smaller X on fine grids ({eq_fine})",
     ),
     (
         ["coincide"],
         "exponents of boundary elements and MDR “nearly coincide”",
-        "differences {coincide} at H = 0.1, 0.4, 0.6 and 0.9 ({equal:.2f} at 0.4 in the same range of X)",
+        "differences {coincide} at H = 0.1, 0.4, 0.6 and 0.9",
     ),
     (["one_constant"], "all results collapse to one master curve (Fig. 3)", "from H = 0.4 on"),
     (
         ["master_curve"],
         "this curve is Eq. 12, with ζ = 2 − H",
-        "ours is Eq. 12 times {factors[0]}, or with X times {factors[1]}; we do not know the cause",
+        "Eq. 12 times {factors[0]}, or X times {factors[1]}; cause unknown",
     ),
     (
         ["zeta_viscous"],
         "prefactor ζ = 2 − H with the factor Γ (Eq. 11, the better fit): {eq_11_gamma}",
         "{zeta_gamma} at H = {hursts}",
     ),
-    (["zeta_elastic"], "quoted: ζ ≈ π(3 − H)/10 (Eq. 4): {eq_4}", "{zeta} at H = {hursts}"),
     (
         ["gamma"],
         "a factor 1/Γ(2 − α) in Eqs. 7 to 9",
-        "does not follow from Eqs. 1, 3 and 6; not in direct integration",
+        "does not follow from Eqs. 1, 3 and 6",
     ),
     (
         ["complete_contact"],
         "region (c) is an “almost complete” contact",
-        "it begins with {wide} % in contact if the slope may differ from 1 by {slopes[0]:g}, and with {narrow} % by "
-        "{slopes[1]:g} ({narrow_hursts}); at the end of the curves {end} % touch",
+        "begins with {wide} % in contact (slope within {slopes[0]:g} of 1) or {narrow} % ({slopes[1]:g})",
     ),
 )
 
@@ -326,22 +323,17 @@ def scoreboard():
     """Return the numbers of claims by verdict, own and quoted apart, of the published run and of the default run."""
     texts = []
     for name in ("docs/claims.csv", DEFAULT_CLAIMS):
-        table = published_claims(name)
-        totals = {origin: counted_verdicts(table, origin) for origin in ("own", "quoted")}
-        counts = {o: ", ".join(f"{number} {verdict}" for verdict, number in total) for o, total in totals.items()}
-        numbers = {origin: sum(number for _, number in total) for origin, total in totals.items()}
-        texts.append(
-            f"of {numbers['own']} own claims of the paper on physics, {counts['own']}; of {numbers['quoted']} claims "
-            f"that it quotes from earlier work, {counts['quoted']}"
-        )
+        totals = [counted_verdicts(published_claims(name), origin) for origin in ("own", "quoted")]
+        own, quoted = (", ".join(f"{number} {verdict}" for verdict, number in total) for total in totals)
+        texts.append(f"own claims of the paper on physics: {own}; quoted claims: {quoted}")
     here, default = texts
-    own = overall(published_claims())
-    prefactor = [name for name in ("gamma", "zeta_viscous", "master_curve") if own[name] == "not reproduced"]
-    text = f"Verdicts (`{origin_of('scaling.csv')['command']}`): {here}."
+    text = f"Verdicts (`{origin_of('scaling.csv')['command']}`), {here}."
+    verdicts = overall(published_claims())
+    prefactor = [name for name in ("gamma", "zeta_viscous", "master_curve") if verdicts[name] == "not reproduced"]
     if len(prefactor) > 1:
-        text += f" Of its own claims that are not reproduced, {len(prefactor)} concern the one prefactor."
+        text += f" {len(prefactor)} of its own claims that are not reproduced concern the one prefactor."
     if default != here:
-        text += f" The default run (`make reproduce`), with the paper's number of discs, has: {default}."
+        text += f" The default run (`make reproduce`) has {default}."
     return text
 
 
@@ -437,10 +429,9 @@ def time_sentence():
     text = (
         f"**{weeks.capitalize()} in the paper, {default_minutes()} here**: from `git clone` to the page on a virtual "
     )
-    text += f"machine ({machine}, {measured}), with as many discs as the paper up to X = 1.8, and with "
-    text += "fewer and shorter lines. The packages take "
+    text += f"machine ({machine}, {measured}), with as many discs as the paper up to X = 1.8, and with fewer and "
     text += (
-        f"{seconds['environment']:.0f} seconds of this, and the compiler {seconds['compilation']:.0f}, both only once."
+        f"shorter lines; {seconds['environment'] + seconds['compilation']:.0f} seconds of this are needed only once."
     )
     return paragraph(text)
 

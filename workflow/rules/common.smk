@@ -234,7 +234,7 @@ def benchmark_files(without=()):
     own = [rule for rule in workflow.rules if rule.benchmark and Path(rule.basedir).is_relative_to(WORKFLOW)]
     jobs = [job | {"format": "png"} for job in cases.pool_jobs(CASES)] + [{"nested": name} for name in NESTED]
     files = {}
-    for rule in (rule for rule in own if rule not in without):
-        described = [job for job in jobs if get_wildcard_names(rule.benchmark) <= job.keys()]
-        files[rule.name] = sorted({apply_wildcards(rule.benchmark, job) for job in described})
+    for member in (member for member in own if member not in without):
+        described = [job for job in jobs if get_wildcard_names(member.benchmark) <= job.keys()]
+        files[member.name] = sorted({apply_wildcards(member.benchmark, job) for job in described})
     return files

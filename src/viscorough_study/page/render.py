@@ -18,8 +18,8 @@ TYPESET = {
     "β = H/(1 + H)": r"\beta = H/(1+H)",
     "H/(1 + H)": r"H/(1+H)",
     "H > 0.4": "H > 0.4",
-    "ζ = π(3 − H)/10": r"\zeta = \pi(3-H)/10",
-    "ζ = 2 − H": r"\zeta = 2-H",
+    "ζ ≈ π(3 − H)/10": r"\zeta \approx \pi(3-H)/10",
+    "ζ ≈ 2 − H": r"\zeta \approx 2-H",
     "1/Γ(2 − α)": r"1/\Gamma(2-\alpha)",
     "vt/h": "vt/h",
 }

@@ -83,7 +83,7 @@ KINDS = {
 }
 # Reasons why claims fail: {name of the reason in claims.yaml: reason in words}.
 FINDINGS = {
-    "small_hurst": "on the paper's grid the exponents at small H are larger than H/(1 + H)",
+    "small_hurst": "at small H, for which the paper claims no formula, the exponents of discs and lines differ",
     "prefactor": "the prefactor of Eq. 12 differs, from H = 0.4 on by one constant",
     "gamma": "the factor 1/Γ(2 − α) does not follow from Eqs. 1, 3 and 6",
     "region_c": "the slope 1 of region (c) begins before the contact is almost complete",

@@ -239,7 +239,7 @@ integration in time nor the paper's MDR has it. It changes neither the exponent 
 
 The MDR gives β = H/(1 + H) from H = 0.4 on. At H = 0.4 it differs from boundary elements by {coincide_04:.2f}, and by
 {equal:.2f} if both are fitted in the same range of X. With one parameter fitted it gives mean velocities in region (b)
-to {mdr:.0f} %, at 7 to 20 % of the cost of boundary elements. Its “huge advantage” in time was larger in the paper,
+to {mdr:.0f} %, at a small part of the cost of boundary elements. Its “huge advantage” in time was larger in the paper,
 where every time step of the boundary elements was a contact problem. It gives neither contact areas nor the motion of a
 single surface ([explained](verification.md#the-reduction-of-dimensionality)).
 

@@ -202,7 +202,6 @@ def depth_error_on_coarse_grid():
 
 # {page: {sentence: function that returns the text or the numbers for its brackets}}
 QUOTED = {
-    "docs/index.md": {"at {:.0f} to {:.0f} % of the cost": reduction_costs},
     "README.md": {
         "surfaces, in {:.0f} minutes": minutes_of_paper,
     },
@@ -266,7 +265,6 @@ QUOTED = {
     },
     "docs/questions.md": {
         "4097 elements across takes {:.0f} s": lambda: large(4097)["wall"],
-        "at {:.0f} to {:.0f} % of the cost": reduction_costs,
         "takes {:.2f} to {:.2f} s for a disc of 257": lambda: default_path()["wall_s"].agg(["min", "max"]),
     },
     "docs/reproduce.md": {

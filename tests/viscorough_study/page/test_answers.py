@@ -38,6 +38,7 @@ def test_numbers_belong_to_the_claims_named_before_them(text):
     parts = re.findall(r"((?:<\w+>[^{<]*)+)((?:\{\d+ \w+\}[^{<]*)+)", text)
     for verdicts, numbers in parts:
         rows, named = [int(row) for row in re.findall(r"\{(\d+)", numbers)], set(re.findall(r"<(\w+)>", verdicts))
+        named -= {"zeta_better"}  # a comparison without a number of its own
         assert set(TABLE.loc[rows, "claim"]) - {FOLLOWING.get(name) for name in named} == named
     assert sum(numbers.count("{") for _, numbers in parts) == text.count("{")
 

@@ -52,7 +52,7 @@ def test_intervals_and_cases_belong_to_their_numbers(text):
     intervals = re.findall(r"\{(\d+) value\} \[\{(\d+) low\}, \{(\d+) high\}\]", text)
     assert all(len(set(rows)) == 1 for rows in intervals)
     assert len(intervals) == text.count("[") > 2
-    cases = re.findall(r"\{(\d+) value\}(?: \[[^]]*\])? for (H = [\d.]+)", text)
+    cases = re.findall(r"\{(\d+) value\}(?: \[[^]]*\])? for (H = [\d.]+(?:, X from \S+ to \S+)?)", text)
     cases += [(row, case) for case, row in re.findall(r"differ most for (H = [\d.]+): by \{(\d+)", text)]
     assert len(cases) == len(re.findall(r"for H = ", text))
     cases += re.findall(r"\{(\d+) value\} \((H = [^)]+)\)", text)

@@ -16,7 +16,7 @@ BY_FOLDER = {
     "peers": ["tests/benchmarks/test_other_solvers.py"],
     "config": ["tests/viscorough_study/run/test_settings.py", "tests/docs/test_write_settings.py"],
     "resources": ["tests/viscorough_study/verdicts/test_claims.py"],
-    "docs": ["tests/docs/test_pages.py", "tests/docs/test_numbers.py"],
+    "docs": ["tests/docs/test_pages.py", "tests/benchmarks/test_pages.py"],
 }
 
 

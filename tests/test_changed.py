@@ -16,7 +16,7 @@ import changed
         ("src/viscorough/contact/state.py", "tests/viscorough/contact/test_prescribed_depth.py"),
         ("benchmarks/fuzz.py", "tests/benchmarks/test_fuzz.py"),
         ("Snakefile", "tests/workflow/test_form.py"),
-        ("docs/theory.md", "tests/docs/test_numbers.py"),
+        ("docs/theory.md", "tests/benchmarks/test_pages.py"),
     ],
 )
 def test_changed_file_selects_existing_tests(name, some):

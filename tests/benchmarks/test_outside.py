@@ -25,6 +25,6 @@ def test_slope_is_the_rms_slope_of_the_interpolated_heights():
 
 
 def test_all_sources_but_one_are_met():
-    """docs/outside.md names the source."""
+    """docs/published.md names the source."""
     published = pd.read_csv(ROOT / "docs/results/outside.csv")
     assert published[published["met"] == 0]["source"].unique().tolist() == [outside.SEPARATION_SOURCE]

@@ -9,6 +9,7 @@ from click.testing import CliRunner
 from law_scatter import calibrated_scatter, law_at, quantile
 from scipy.stats import norm
 
+from support.documentation import ROOT
 from viscorough.law.calibrated_law import SCATTER_COLUMNS, penetration_law, relative_interval
 
 X = np.array([0.01, 0.1, 1.0])
@@ -78,3 +79,22 @@ def test_errors_are_the_law_over_the_mean_and_coverage_the_share_in_the_interval
     for name in ("velocity", "depth"):
         assert table[f"{name}_coverage"].to_numpy() == pytest.approx(high - low, abs=0.04)
         assert relative_interval(scatter, name, 0.5, 1.0) == pytest.approx(np.exp(0.15 * ends), rel=0.04)
+
+
+# The published table of `make law-errors`, on the grid of the law, from X = 0.003 on.
+PUBLISHED = pd.read_csv(ROOT / "docs/results/law_errors.csv").query("x > 0.003")
+
+
+def test_most_single_discs_lie_in_their_interval():
+    """The interval was calibrated on other discs. It should contain 95 % of them."""
+    tested = PUBLISHED.query("tested > 0").groupby(["hurst", "across"])[["velocity_coverage", "depth_coverage"]].mean()
+    assert set(tested.index.get_level_values("across")) == {129, 257}
+    assert tested.stack().between(0.9, 0.98).all()
+
+
+def test_law_is_within_its_stated_error_on_fresh_discs():
+    """The grid is the grid of the law. Errors may exceed the stated ones by two standard errors of their mean."""
+    table = pd.read_csv(ROOT / "docs/results/law_errors.csv").query("across == 257")
+    for name in ("velocity", "depth"):
+        stated = table["hurst"].map(lambda hurst, name=name: getattr(penetration_law(hurst), f"{name}_error"))
+        assert (table[f"{name}_error"].abs() <= stated + 2 * table[f"{name}_standard_error"]).mean() >= 0.95

@@ -63,7 +63,7 @@ def test_blocks_run(page):
     run_page(page)
 
 
-def test_readme_makes_the_picture_that_it_shows(tmp_path):
+def test_readme_makes_the_picture_of_the_guide(tmp_path):
     run_page(README)
     assert compare_images(ROOT / "docs/own_surface.png", tmp_path / "own_surface.png", tol=1) is None
 

@@ -283,9 +283,8 @@ def penetration_law(hurst: float) -> PenetrationLaw:
     are values of X, the logarithms are interpolated.
 
     The law was tested on a further sample of discs of 257 elements across, also at Hurst exponents between the
-    calibrated exponents. The means of this sample differed from the law by at most 12 % in vt/h, 16 % in g, and 7 % in
-    u/h; their standard errors are 5 % at small X. The depth depends on the grid: at X = 0.003 the law exceeds the mean
-    u/h of discs of 129 elements across by 12 % at H = 0.85 and by 37 % at H = 0.1 (docs/verification.md).
+    calibrated exponents. docs/verification.md states the largest differences. The depth depends
+    on the grid: at small X the law exceeds the mean u/h of discs of 129 elements across by more than a tenth.
 
     Parameters
     ----------

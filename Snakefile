@@ -13,8 +13,9 @@ include: "workflow/rules/common.smk"
 # remains the default target. Not documented: the default target as an attribute.
 IS_DEFAULT = workflow.default_target is None
 
-# Not documented: the files and options that the settings come from. Messages on wrong settings name them.
-settings, MEASURED = complete(config, workflow.overwrite_configfiles, workflow.config_settings.config)
+# Not documented: the files and options that the settings come from. Messages on wrong settings and the page name them.
+SETTINGS_FILES = workflow.overwrite_configfiles
+settings, MEASURED = complete(config, SETTINGS_FILES, workflow.config_settings.config)
 config.update(settings)
 
 

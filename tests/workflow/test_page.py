@@ -12,9 +12,11 @@ import yaml
 
 from support.code_blocks import run_python, run_shell
 from support.page import BROWSER, Page, number_in, opened
-from support.workflow import ROOT, TABLES
+from support.workflow import ROOT, TABLES, merged, read_settings
 from viscorough.surfaces.self_affine import self_affine_disc
+from viscorough_study.page.content import as_yaml
 from viscorough_study.run.rule_costs import duration_text
+from viscorough_study.run.settings import changed_settings
 from viscorough_study.verdicts.claims import overall, physics
 
 LARGEST = 3e6  # bytes
@@ -64,6 +66,17 @@ def test_code_on_the_page_runs(html, tmp_path, monkeypatch):
     assert len(lines) >= 1
     for line in lines:
         run_shell(line)
+
+
+def test_page_names_the_settings_file_and_every_setting_that_it_changes(html):
+    assert "<code>.venv/bin/snakemake --cores 2 --configfile config/test.yaml</code>" in html
+    for name, values in changed_settings(
+        read_settings("config"), merged(read_settings("config"), read_settings("test"))
+    ).items():
+        row = html.split(f"<code>{name}</code></th>")[1].split("</tr>")[0]
+        assert [unescape(cell)[:50] for cell in re.findall("<td>(.*?)</td>", row)] == [
+            as_yaml(value)[:50] for value in values
+        ]
 
 
 def test_commands_on_page_exist(html):

@@ -106,7 +106,7 @@ try:
     from viscorough_study.run.kernels import KERNELS_BENCHMARK, compile_once
     from viscorough_study.run.paper_data import read_paper, read_records
     from viscorough_study.run.scans import scans
-    from viscorough_study.run.settings import complete_settings, source_of
+    from viscorough_study.run.settings import changed_settings, complete_settings, path_shown, source_of
     from viscorough_study.run.source_digest import SourceDigests
     from viscorough_study.run.stale_locks import remove_stale_locks
 except ModuleNotFoundError as error:  # also raised if a package has no metadata

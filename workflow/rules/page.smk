@@ -160,6 +160,8 @@ rule make_page:
         numbers=paper("numbers"),
         fraction_min=config["scaling"]["fraction_min"],
         made_by=PAGE_TABLES,
+        changed=changed_settings(read_yaml("config/config.yaml"), config),
+        files=[path_shown(path) for path in SETTINGS_FILES],
         source=[digest("make_page"), *text_digests(PAGE_TEXTS)],
     message:
         "The page of the results"

@@ -41,7 +41,7 @@ def page_of(project, discs, figures, *, fraction_min, **run):
     return render(template, style, figures, captions, **parts, **contents)
 
 
-def contents_of(project, discs, lines, *, tables, claims, numbers, made_by):
+def contents_of(project, discs, lines, *, tables, claims, numbers, made_by, changed, files):
     """Return the variables for the template of the page, {name: content}.
 
     project : folder of the project, which contains published numbers and verdicts
@@ -49,6 +49,8 @@ def contents_of(project, discs, lines, *, tables, claims, numbers, made_by):
     tables : paths of CSV files; a table has the name of its file without the suffix
     claims, numbers : contents of resources/paper/claims.yaml and numbers.yaml
     made_by : {name of a table: Snakemake rule that made it}
+    changed : {setting: (value, default value)} of all settings of the run that are not the default
+    files : settings files of the run
     """
     tables = {Path(path).stem: path for path in tables}
     results = read_results(tables, made_by)
@@ -80,6 +82,8 @@ def contents_of(project, discs, lines, *, tables, claims, numbers, made_by):
         "literature": discussion(results),
         "quantities": QUANTITIES,
         "measured": content.measured(results, conventions),
+        "changed": {name: [content.as_yaml(value) for value in pair] for name, pair in changed.items()},
+        "files": files,
         "costs": results.records("rule_costs"),
         **{name: read_recorded(costs_nc, name) for name in ("machine", "versions", "made")},
         "time": duration_text(results.tables["rule_costs"]["share_s"].sum()),

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pandas as pd
+import yaml
 
 from viscorough.io.netcdf import opened
 from viscorough_study.run.cases import medium_label
@@ -156,6 +157,11 @@ def scale(discs, lines, numbers):
         "whole": whole,
         **pools,
     }
+
+
+def as_yaml(value):
+    """Return a setting as it is written in a settings file, on one line."""
+    return yaml.safe_dump(value, default_flow_style=True, width=np.inf, sort_keys=False).removesuffix("...\n").strip()
 
 
 def _pool(path):

@@ -26,9 +26,9 @@ def complete_settings(defaults, given, files, options):
         a wrong setting in messages.
     Raises ValueError, one line that names a file, for the first file that cannot be read or the first wrong setting.
     """
-    sources = {_shown(defaults): read_settings_file(defaults), "the settings of the module": given}
-    sources |= {_shown(path): read_settings_file(path) for path in files} | {"--config": options}
-    completed = _merged(sources[_shown(defaults)], given)
+    sources = {path_shown(defaults): read_settings_file(defaults), "the settings of the module": given}
+    sources |= {path_shown(path): read_settings_file(path) for path in files} | {"--config": options}
+    completed = _merged(sources[path_shown(defaults)], given)
     check_settings(completed, sources)
     return completed, sources
 
@@ -40,7 +40,22 @@ def _merged(base, changes):
     return base | {key: _merged(base.get(key), value) for key, value in changes.items()}
 
 
-def _shown(path):
+def changed_settings(defaults, settings, above=()):
+    """Return the settings that differ from the defaults, {name such as "discs.hurst": (value, default value)}.
+
+    defaults, settings : mappings of all settings, with the same keys; above : keys of the mapping that contains them
+    """
+    changed = {}
+    for key, value in settings.items():
+        default, path = defaults.get(key), (*above, key)
+        if isinstance(value, dict) and isinstance(default, dict):
+            changed |= changed_settings(default, value, path)
+        elif value != default:
+            changed[name_of(path)] = (value, default)
+    return changed
+
+
+def path_shown(path):
     """Return a path for messages: relative to the working directory if the file lies in it, otherwise unchanged."""
     return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path)
 

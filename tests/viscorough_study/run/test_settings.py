@@ -12,7 +12,7 @@ import pytest
 from support.workflow import ROOT, merged, read_settings
 from viscorough_study.figures.conventions import CONVENTION_LABELS
 from viscorough_study.fits.conventions import VALUES
-from viscorough_study.run.settings import check_settings, complete_settings, resolved, schema
+from viscorough_study.run.settings import changed_settings, check_settings, complete_settings, resolved, schema
 
 COMBINATION = {"number": 1, "force": 1.0, "viscosity": 1.0, "diameter": 1.0, "rms": 1e-3}
 SCAN = {"name": "scan", "files": ["z.npy"]}
@@ -170,6 +170,12 @@ def test_settings_of_a_run_replace_lists_and_merge_mappings(tmp_path, monkeypatc
     assert list(sources) == [str(ROOT / "config/config.yaml"), "the settings of the module", "mine.yaml", "--config"]
     with pytest.raises(ValueError, match=r"^--config: seed is -1; "):
         complete_settings(ROOT / "config/config.yaml", given | {"seed": -1}, [], {"seed": -1})
+
+
+def test_changed_settings_are_named_with_both_values():
+    default = read_settings("config")
+    changed = changed_settings(default, merged(default, {"seed": 5, "lines": {"points": 4096, "batch": 500}}))
+    assert changed == {"seed": (5, 2013), "lines.points": (4096, 131072)}
 
 
 def test_settings_and_figures_have_the_same_conventions():

@@ -52,23 +52,27 @@ def short_answer(table):
     collapse = COLLAPSE[verdicts["collapse"]]
     if verdicts["equivalence"] and verdicts["collapse"]:
         collapse = (
-            "The viscous problem is equivalent to the elastic one, and for each Hurst exponent H one curve holds for "
-            "all forces, viscosities, sizes and rms heights"
+            "The viscous problem is equivalent to the elastic problem, as the paper derives, and for each Hurst "
+            "exponent H one curve holds for all forces, viscosities, sizes and rms heights"
         )
     cases, parts = _exponents(table, "beta", "discs"), []
     if holding := _hursts(cases, HELD):
         within = np.ceil(100 * max(abs(case["difference"]) for case in cases.values() if case["verdict"] in HELD)) / 100
-        parts.append(f"is H/(1 + H) within {within:.2f} where the paper claims it, at H = {_joined(holding)}")
+        parts.append(f"is H/(1 + H) within {within:.2f} at H = {_joined(holding)}, where the paper claims it")
     for sign, word in ((1, "larger"), (-1, "smaller")):
         apart = [
-            f"by {abs(case['difference']):.2f} at {hurst:g}"
+            f"by {abs(case['difference']):.2f} at H = {hurst:g}"
             for hurst, case in cases.items()
             if case["verdict"] == "not reproduced" and sign * case["difference"] > 0
         ]
-        parts += [f"{word} {_joined(apart)} on the paper's grid"] if apart else []
+        parts += [f"on the paper's grid is {word} {_joined(apart)}"] if apart else []
     failing = ["the prefactor differs from the paper's"] if verdicts["master_curve"] is False else []
-    failing += ["the factor 1/Γ(2 − α) of its Eqs. 7 to 9 is not confirmed"] if verdicts["gamma"] is False else []
-    exponent = f"The exponent of this curve {_joined(parts, comma=True)}" if parts else ""
+    failing += (
+        ["direct integration does not have the factor 1/Γ(2 − α) of its Eqs. 7 to 9"]
+        if verdicts["gamma"] is False
+        else []
+    )
+    exponent = f"In the middle part of this curve the exponent {_joined(parts, comma=True)}" if parts else ""
     sentences = [collapse, exponent, _joined(failing or [""], comma=True)]
     return " ".join(f"{sentence[0].upper()}{sentence[1:]}." for sentence in sentences if sentence)
 

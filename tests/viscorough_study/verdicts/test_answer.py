@@ -93,10 +93,11 @@ def test_answer_changes_with_a_verdict(claim, case, verdict, text):
 
 def test_short_answer_has_three_sentences_from_the_verdicts():
     assert short_answer(TABLE) == (
-        "The viscous problem is equivalent to the elastic one, and for each Hurst exponent H one curve holds for "
-        "all forces, viscosities, sizes and rms heights. The exponent of this curve is H/(1 + H) within 0.02 where the "
-        "paper claims it, at H = 0.6 and 0.9, and larger by 0.16 at 0.1 and by 0.05 at 0.4 on the paper's grid. The "
-        "prefactor differs from the paper's, and the factor 1/Γ(2 − α) of its Eqs. 7 to 9 is not confirmed."
+        "The viscous problem is equivalent to the elastic problem, as the paper derives, and for each Hurst exponent H "
+        "one curve holds for all forces, viscosities, sizes and rms heights. In the middle part of this curve the "
+        "exponent is H/(1 + H) within 0.02 at H = 0.6 and 0.9, where the paper claims it, and on the paper's grid is "
+        "larger by 0.16 at H = 0.1 and by 0.05 at H = 0.4. The prefactor differs from the paper's, and direct "
+        "integration does not have the factor 1/Γ(2 − α) of its Eqs. 7 to 9."
     )
     undecided = TABLE.assign(verdict="undecided")
     assert short_answer(undecided) == "Whether the curves of each Hurst exponent collapse is undecided."

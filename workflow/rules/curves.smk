@@ -103,7 +103,7 @@ rule aggregate_curves:
 
 
 rule curves:
-    """The loading curves of all surfaces."""
+    """The loading curves of the discs and lines of Figures 2 to 4, and of their variants."""
     input:
         cases.pool_curves(CASES, "discs"),
         cases.pool_curves(CASES, "lines"),

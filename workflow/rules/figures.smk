@@ -457,7 +457,7 @@ use rule plot_surfaces as plot_measured with:
 
 
 rule figures:
-    """All figures."""
+    """The figures of the page, except the figure of measured surfaces."""
     input:
         expand(
             "results/figures/{figure}.png",

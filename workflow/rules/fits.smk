@@ -23,7 +23,7 @@ rule fit_power_laws:
         seed=config["seed"],
         source=digest("fit_power_laws"),
     message:
-        "Power laws in region (b): exponent beta, prefactor zeta, and lambda"
+        "Power laws in region (b): exponent beta and prefactor zeta"
     script:
         "../scripts/fit_power_laws.py"
 

@@ -6,7 +6,7 @@ NEED_SCANS = [rules.press_measured.rule, rules.evaluate_measured.rule, rules.plo
 
 
 rule tables:
-    """All tables, except the table of the costs of this run."""
+    """All tables, except those of measured surfaces and the costs of this run."""
     input:
         expand(
             "results/tables/{table}.{kind}",

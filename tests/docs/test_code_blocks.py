@@ -76,6 +76,7 @@ CHECKERS = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("checker", [name for name in CHECKERS if name == "mypy" or shutil.which(name)])
 def test_type_checkers_accept_the_blocks(tmp_path, checker):
     """All Python blocks of a page form one script, as a user would write it. Untyped packages are left out."""
@@ -110,24 +111,6 @@ def test_extras_named_on_pages_exist():
     sources = [*PAGES, *(ROOT / "src/viscorough").rglob("*.py")]
     named = {name for file in sources for name in re.findall(r'pip\s+install "(?:\.|viscorough)\[(\w+)\]', read(file))}
     assert {"plot", "formats"} <= named <= set(extras)
-
-
-def test_extras_are_added_to_an_installed_package_without_an_index_that_has_it():
-    command = [sys.executable, "-m", "pip", "install", "--dry-run", "--no-index", "viscorough[formats,plot]"]
-    subprocess.run(command, check=True, capture_output=True)
-
-
-def test_commands_without_make_agree_with_the_makefile():
-    """Commands of environment and tests are compared in full, commands of the workflow without progress lines."""
-    page = ROOT / "docs/reproduce.md"
-    (text,) = (block.text for block in blocks(page) if "python3 -m venv .venv" in block.text)
-    command = ["make", "--dry-run", "--always-make", "CORES=2", "environment", "reproduce", "test"]
-    made = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
-    made = re.sub(
-        r" +", " ", re.sub(r"\.venv/bin/| --clear| --quiet| --no-compile| --disable-pip-version-check", "", made)
-    )
-    for line in text.splitlines():
-        assert line.split(" && ")[0] in made, line
 
 
 def test_settings_shown_are_valid():

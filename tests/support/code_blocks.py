@@ -5,6 +5,7 @@ import glob
 import io
 import re
 import shlex
+import warnings
 
 from support.documentation import MAKEFILES
 from viscorough.cli import main
@@ -19,7 +20,8 @@ def run_command(line):
     """Run a command of viscorough, and return its output."""
     command, *words = shlex.split(line, comments=True)
     arguments = [argument for word in words for argument in sorted(glob.glob(word)) or [word]]  # as a shell does
-    with contextlib.redirect_stdout(io.StringIO()) as printed:
+    as_for_users = warnings.catch_warnings(action="default")
+    with as_for_users, contextlib.redirect_stdout(io.StringIO()) as printed:
         assert (command, main(arguments)) == ("viscorough", 0), line
     return printed.getvalue()
 

@@ -443,8 +443,12 @@ def test_quantities_are_refused_for_numbers_without_a_unit(each, name):
 INDENTERS = [name for name, calls in CALLS.items() if {"indenter", "line", "surface", "curve"} & set(calls[0].others)]
 
 
-@pytest.mark.parametrize("wrong", ["heights.npy", Path("curve.nc"), HEIGHTS, None, 3.0, DISC, LINE, CURVE], ids=repr)
-@pytest.mark.parametrize("name", INDENTERS)
+NO_INDENTERS = ["heights.npy", Path("curve.nc"), None, 3.0, DISC, LINE, CURVE]
+
+
+@pytest.mark.parametrize(
+    ("name", "wrong"), [(INDENTERS[0], wrong) for wrong in NO_INDENTERS] + [(name, HEIGHTS) for name in INDENTERS]
+)
 def test_paths_and_arrays_are_refused_as_indenters_and_curves(name, wrong):
     each = CALLS[name][0]
     (argument,) = {"indenter", "line", "surface", "curve"} & set(each.others)
@@ -455,9 +459,12 @@ def test_paths_and_arrays_are_refused_as_indenters_and_curves(name, wrong):
     one_line(error.value)
 
 
-@pytest.mark.parametrize("wrong", ["abc", [1.0], np.array([1.0, 2.0]), None, True, 1j, CURVE, 10**400], ids=repr)
+WITH_MEDIUM = [name for name, calls in CALLS.items() if "medium" in calls[0].others | calls[0].numbers]
+NO_MEDIA = [[1.0], np.array([1.0, 2.0]), None, True, 1j, CURVE, 10**400]
+
+
 @pytest.mark.parametrize(
-    "name", [name for name, calls in CALLS.items() if "medium" in calls[0].others | calls[0].numbers]
+    ("name", "wrong"), [(WITH_MEDIUM[0], wrong) for wrong in NO_MEDIA] + [(name, "abc") for name in WITH_MEDIUM]
 )
 def test_wrong_media_are_refused(name, wrong):
     if name == "IdentifiedMedium":

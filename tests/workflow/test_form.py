@@ -1,13 +1,10 @@
-"""Files that must agree: profiles, lock files, files for archives and catalogs, and the making of the environment."""
+"""Files that must agree: profiles, rules and scripts, lock files, citation, container."""
 
-import os
 import re
 import shutil
 import subprocess
-import sys
 import tomllib
 
-import pytest
 import yaml
 
 from support.workflow import ROOT, RULES, TEST, copy_project, jobs, plan, snakemake
@@ -63,117 +60,6 @@ def test_lock_files_agree_with_each_other():
         further = set() if extra in ("", "build", "study", "plot") else packages[lock]
         names = {re.match(r"[\w.-]+", requirement)[0].lower().replace("_", "-") for requirement in requirements}
         assert names <= packages["requirements.lock"] | further, extra
-
-
-def test_missing_venv_is_one_line_and_leaves_no_files(tmp_path):
-    """Debian without python3-venv behaves so."""
-    shutil.copy(ROOT / "Makefile", tmp_path)
-    shutil.copytree(ROOT / "peers", tmp_path / "peers")
-    (tmp_path / "requirements.lock").touch()
-    python = tmp_path / "python"
-    python.write_text('#!/bin/sh\ncase "$2" in *ensurepip*) echo Traceback >&2; exit 1;; esac\n')
-    python.chmod(0o755)
-    command = ["make", "environment", f"PYTHON={python}"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert done.returncode == 2
-    assert done.stderr.splitlines()[0].endswith("are needed; Debian and Ubuntu: apt install python3-venv")
-    assert "Traceback" not in done.stderr
-    assert not (tmp_path / ".venv").exists()
-
-
-def python_of_version(folder, version, lines=""):
-    """Write a program that is this Python but states another version, and has no venv; lines : run first"""
-    numbers = tuple(map(int, version.split(".")))
-    python = folder / "python"
-    python.write_text(
-        f"#!{sys.executable}\nimport sys\nsys.version, sys.version_info = '{version} (main)', {numbers}\n{lines}\n"
-        "exec(sys.argv[2]) if sys.argv[1] == '-c' else sys.exit(1)\n"
-    )
-    python.chmod(0o755)
-    return python
-
-
-@pytest.mark.parametrize(
-    ("version", "refused"), [("3.10.9", True), ("3.11.0", False), ("3.14.1", False), ("3.15.0", True)]
-)
-def test_interpreters_outside_the_tested_range_are_refused(tmp_path, version, refused):
-    """The interpreter is this Python, which states another version."""
-    shutil.copy(ROOT / "Makefile", tmp_path)
-    shutil.copytree(ROOT / "peers", tmp_path / "peers")
-    (tmp_path / "requirements.lock").touch()
-    python = python_of_version(tmp_path, version)
-    command = ["make", "environment", f"PYTHON={python}"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-    message = f"Python 3.11 to 3.14 is needed, and {python} is {version}; make PYTHON=... names another one\n"
-    assert done.stderr.startswith(message) == refused
-    assert (message in done.stderr) == refused
-    assert not (tmp_path / ".venv").exists()
-
-
-@pytest.mark.parametrize(("version", "refused"), [("3.13.0", False), ("3.14.0", True)])
-def test_missing_compiler_is_reported_before_anything_is_installed(tmp_path, version, refused):
-    shutil.copy(ROOT / "Makefile", tmp_path)
-    shutil.copytree(ROOT / "peers", tmp_path / "peers")
-    (tmp_path / "requirements.lock").touch()
-    python = python_of_version(tmp_path, version, "import shutil; shutil.which = lambda name: None")
-    command = ["make", "environment", f"PYTHON={python}"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert ("immutables, which has no wheel for Python 3.14: a C compiler" in done.stderr.split("\n")[0]) == refused
-    assert not (tmp_path / ".venv").exists()
-
-
-@pytest.fixture
-def built(tmp_path):
-    """Make a folder with a Makefile and an environment that is up to date."""
-    shutil.copy(ROOT / "Makefile", tmp_path)
-    shutil.copytree(ROOT / "peers", tmp_path / "peers")
-    (tmp_path / ".venv/bin").mkdir(parents=True)
-    for name in ("requirements.lock", "pyproject.toml", ".venv/lock-installed", ".venv/package-installed"):
-        (tmp_path / name).touch()
-    (tmp_path / ".venv/bin/pip").write_text(f"#!{tmp_path}/.venv/bin/python3.11\n")
-    return tmp_path
-
-
-def make_environment(folder, target="environment"):
-    command = ["make", "--dry-run", target]
-    own = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, env=own)
-
-
-def test_only_tests_and_lint_install_their_packages(built):
-    (built / "requirements-dev.lock").touch()
-    assert "pip install" not in make_environment(built, "reproduce").stdout
-    assert "requirements-dev.lock" in make_environment(built, "lint").stdout
-
-
-def test_moved_environment_is_built_again(built):
-    """Programs of the environment contain the path of the folder in which it was built."""
-    assert "venv" not in make_environment(built).stdout
-    moved = built.rename(built.with_name(f"{built.name}-moved"))
-    assert "python3 -m venv --clear .venv\n" in make_environment(moved).stdout
-
-
-@pytest.mark.parametrize(("name", "named"), [("my folder", "a space"), ("Lin's", "'")])
-def test_folder_in_which_no_job_can_start_is_refused_by_make(built, name, named):
-    done = make_environment(built.rename(built.with_name(name)))
-    assert done.returncode == 2
-    assert done.stdout == ""
-    assert f"{name}: the path has {named}, with which no job can start; " in done.stderr
-    assert done.stderr.count("\n") == 1
-
-
-def test_caches_are_in_the_project_if_the_home_folder_is_missing(built):
-    """Otherwise Snakemake ends with a traceback, or makes a folder named ~."""
-    (built / "Makefile").write_text((built / "Makefile").read_text() + "\nshow:\n\t@echo $$XDG_CACHE_HOME\n")
-    for home, cache in (
-        (str(built), ""),
-        (str(built / "none"), f"{built}/.snakemake/cache"),
-        ("", f"{built}/.snakemake/cache"),
-    ):
-        own = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "XDG_CACHE_HOME")}
-        command = ["make", "--no-print-directory", "show"]
-        done = subprocess.run(command, cwd=built, capture_output=True, text=True, check=True, env=own | {"HOME": home})
-        assert done.stdout == f"{cache}\n"
 
 
 def test_citation_agrees_with_package_and_changelog():

@@ -1,6 +1,5 @@
 """Which jobs rerun after a change of a setting or of a source."""
 
-import base64
 import re
 
 import pytest
@@ -9,8 +8,6 @@ import xarray as xr
 from support.workflow import (
     TARGETS,
     TEST,
-    copy_kernels,
-    copy_project,
     copy_sources,
     jobs,
     plan,
@@ -132,19 +129,6 @@ def test_new_seed_reruns_the_curves_of_all_random_surfaces(finished_once, tmp_pa
     assert planned == dict.fromkeys(("generate_discs", "indent_surfaces", "reduce_lines"), 4)
 
 
-def test_outdated_surfaces_rerun_their_dependents(finished_once, tmp_path):
-    """Surfaces may be kept and then outdated by a new seed, or marked as incomplete by a killed run."""
-    project, surfaces = copy_project(tmp_path), "results/surfaces/discs/h09000/0000-0001.nc"
-    copy_kernels(finished_once, project)
-    planned = plan(project, *TEST)
-    snakemake(project, *TEST, "--notemp", "--", surfaces)
-    assert plan(project, *TEST, "--config", "seed=77") == planned
-    marker = project / ".snakemake/incomplete" / base64.urlsafe_b64encode(surfaces.encode()).decode()
-    marker.parent.mkdir(exist_ok=True)
-    marker.touch()
-    assert plan(project, *TEST) == planned
-
-
 def test_kept_surfaces_belong_to_the_curves(finished):
     """Surfaces are made again, and kept, on request. Curves are made again only if their input changes."""
     surfaces = "results/surfaces/discs/h04000/0000-0001.nc"
@@ -183,7 +167,3 @@ def test_changed_source_reruns_only_the_rules_that_use_it(editable, with_depende
     for file in files:
         add_line(editable / file, "CHANGED = True")
     assert set(plan(editable, *TEST)) == with_dependents(directly) | LAST
-
-
-def test_forced_rule_reruns_with_its_dependents_only(finished_once):
-    assert plan(finished_once, *TEST, "--forcerun", "plot_exponent") == dict.fromkeys(("plot_exponent", *LAST), 1)

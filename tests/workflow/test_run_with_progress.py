@@ -1,15 +1,9 @@
 """One line of progress from Snakemake's output; errors are shown, and the exit code is kept."""
 
-import contextlib
-import fcntl
 import io
-import os
 import re
-import select
 import signal
-import struct
 import sys
-import termios
 
 import pandas as pd
 import pytest
@@ -88,33 +82,6 @@ def test_progress_on_a_terminal_is_one_redrawn_line(run, monkeypatch):
     assert any(re.fullmatch(r"1 of 41: Curves of lines \|.*\| [\d:]+ left", line.strip()) for line in lines)
     assert "\n" not in shown.getvalue()
     assert last.strip() == ""
-
-
-def test_terminal_of_zero_width_shows_progress(monkeypatch):
-    """Some terminals in containers state this width."""
-    controller, terminal = os.openpty()
-    with open(terminal, "w") as stream:
-        fcntl.ioctl(stream, termios.TIOCSWINSZ, struct.pack("HHHH", 0, 0, 0, 0))
-        monkeypatch.setattr("sys.stderr", stream)
-        progress = Progress(pd.Series({"indent": 10.0, "plot": 1.0}))
-        for line in STARTED.splitlines():
-            progress.read(line)
-        shown = ""
-        while "0 of 41: Figure 1 |" not in shown:
-            assert select.select([controller], [], [], 60)[0], shown
-            shown += os.read(controller, 10000).decode()
-        progress.bar.close()
-    os.close(controller)
-
-
-def test_run_continues_if_the_progress_stream_is_closed(run, tmp_path, monkeypatch):
-    reader, writer = os.pipe()
-    os.close(reader)
-    with contextlib.suppress(OSError), open(writer, "w", buffering=1) as broken:
-        monkeypatch.setattr("sys.stderr", broken)
-        code = run(f"print({REMOVED!r}); open('made', 'w')")
-    assert code == 0
-    assert (tmp_path / "made").exists()
 
 
 def test_error_of_a_job_is_shown_with_its_log_and_exit_code(run, tmp_path, capfd):

@@ -154,6 +154,7 @@ def retardation_spectrum(relaxation: RelaxationSpectrum) -> RetardationSpectrum:
     return RetardationSpectrum(1 / relaxation.instantaneous_modulus, fluidity, 1 / (zeros * slopes), 1 / zeros)
 
 
+@np.errstate(over="ignore")  # rates of extreme media overflow; their motions are refused
 def relaxation_spectrum(retardation: RetardationSpectrum) -> RelaxationSpectrum:
     """Return the RelaxationSpectrum of the same medium as a RetardationSpectrum.
 

@@ -5,8 +5,9 @@ import shlex
 
 import pytest
 
+from support.command_line import run
 from support.faults import contents
-from viscorough.cli import cli, main
+from viscorough.cli import cli
 
 # Arguments of Python whose options are spelled otherwise; those of media are keys of files as well.
 _OF_PYTHON = {option.name for command in cli.commands.values() for option in command.params if "_" in option.name}
@@ -31,7 +32,7 @@ def complaint(here, capsys):
     def refusal(line):
         arguments, before = shlex.split(line), contents(here)
         capsys.readouterr()
-        code = main(arguments)
+        code = run(line)
         captured = capsys.readouterr()
         assert (code, captured.out) == (2, ""), captured
         command = [argument for argument in arguments[:1] if argument in cli.commands]

@@ -60,7 +60,7 @@ def test_requested_error_states_the_chosen_points(disc, capsys, error):
 
 def test_table_has_grid_errors_and_areas_of_the_chosen_points(disc):
     """With every n-th point, the area of an element is n² times as large."""
-    viscorough.save(self_affine_disc(0.9, 129, rms=0.02, length_unit="um", seed=2), "other.nc")
+    viscorough.save(self_affine_disc(0.9, 129, rms=0.01, length_unit="um", seed=2), "other.nc")
     assert run("indent disc.nc other.nc --error 20% -o table.csv") == 0
     table, _ = read_table("table.csv")
     for name in ("disc.nc", "other.nc"):

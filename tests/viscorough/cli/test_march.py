@@ -23,7 +23,7 @@ def here(here):
     return here
 
 
-CONSTANT, HISTORY = "--force 0.1 --times 0.25,0.5,0.75,1,1.25,1.5", "--force-history force.csv"
+CONSTANT = "--force 0.1 --times 0.25,0.5,0.75,1,1.25,1.5"
 PULSE = "--medium medium.yaml --force-history pulse.csv"
 
 
@@ -31,16 +31,12 @@ PULSE = "--medium medium.yaml --force-history pulse.csv"
     ("motion", "method", "tolerance"),
     [
         (f"--medium medium.yaml {CONSTANT}", "events", 1e-8),
-        (f"--medium medium.yaml {CONSTANT}", "implicit", 1e-2),
         (f"--viscosity 3 {CONSTANT}", "implicit", 1e-5),
-        (f"--viscosity 4 {HISTORY}", "events", 1e-9),
-        (f"--viscosity 4 {HISTORY}", "implicit", 1e-5),
         (PULSE, "implicit", 5e-2),
     ],
 )
-def test_marching_agrees_with_kinetics(here, motion, method, tolerance):
-    """The history is a ramp, a step down, a rest and a pulse. The contact recedes under the other pulse."""
-    (here / "force.csv").write_text("time,force\n1,0\n2,1e0\n4,1\n5,0.5\n5,0\n9,0\n9.5,6\n10,0\n")
+def test_marching_agrees_with_kinetics(motion, method, tolerance):
+    """The contact recedes under the pulse."""
     assert run(f"{MARCH} --method {method} {motion}") == 0
     assert run("indent heights.npy --spacing 1 --tolerance 1e-9 --until-fraction 1 -o curve.nc") == 0
     assert run(f"kinetics curve.nc {motion} -o kin.nc") == 0

@@ -32,7 +32,7 @@ RESULTS = ".nc (NetCDF), .csv (table)"
 WRITERS = ["indent heights.npy --spacing 1", "contact heights.npy --spacing 1 --depth 1", "reduce line.npy --spacing 1"]
 WRITERS += ["kinetics curve.nc --force 1 --viscosity 1", f"{ESTIMATE} --rms 1 --force 1 --viscosity 1"]
 WRITERS += ["march heights.npy --spacing 1 --method events --times 1"]
-MAP, UNKNOWN_KINDS = GENERATE.removesuffix(" -o made.nc") + " --elements 5", ("out.xlsx", "out.txt", "out", "-")
+MAP = GENERATE.removesuffix(" -o made.nc") + " --elements 5"
 MISTAKES = [
     ("indent heights.npy --spacing 1", "--output"),
     (f"{INDENT} --tolerance 0", "'--tolerance': 0.0 is not in the range 0<x<=0.1"),
@@ -149,13 +149,11 @@ MISTAKES = [
     ("indent um.nc --channel y -o out.nc", "heights have the shape (9,)"),
     (f"{INDENT} --scale much", "--scale much"),
     *[(line, "not readable (it is a pipe); ") for line in OF_PIPES],
-    *[(f"{line} -o {name}", f"{name}: {KIND} {RESULTS}") for line in WRITERS for name in UNKNOWN_KINDS],
-    *[(f"{MAP} -o {name}", f"{name}: {KIND} .nc (NetCDF)") for name in (*UNKNOWN_KINDS, "out.csv")],
-    *[(f"{CREEP} {name}", f"{name}: {KIND} .yaml (medium), .yml (medium)") for name in (*UNKNOWN_KINDS, "out.nc")],
-    *[
-        (f"plot curve.nc -o {name}", f"{name}: {KIND} .png (picture), .pdf (drawing), .svg (drawing)")
-        for name in (*UNKNOWN_KINDS, "figure.jpg", "out.nc")
-    ],
+    *[(f"{WRITERS[0]} -o {name}", f"{name}: {KIND} {RESULTS}") for name in ("out.txt", "out", "-")],
+    *[(f"{line} -o out.xlsx", f"out.xlsx: {KIND} {RESULTS}") for line in WRITERS],
+    (f"{MAP} -o out.csv", f"out.csv: {KIND} .nc (NetCDF)"),
+    (f"{CREEP} out.nc", f"out.nc: {KIND} .yaml (medium), .yml (medium)"),
+    ("plot curve.nc -o out.nc", f"out.nc: {KIND} .png (picture), .pdf (drawing), .svg (drawing)"),
 ]
 
 

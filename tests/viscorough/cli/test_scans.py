@@ -111,6 +111,7 @@ def test_interrupted_run_leaves_the_finished_rows_and_continues(here, capsys, mo
     assert (here / "table.csv").read_text().count(",777,") == 1
 
 
+@pytest.mark.filterwarnings("default")
 def test_process_that_dies_leaves_the_reason_in_its_rows(here):
     jobs = []
     for points in (9, 5):

@@ -76,7 +76,7 @@ def test_contact_equals_a_level_of_the_curve():
 
 def test_one_value_gives_one_contact_in_the_unit_of_the_indenter_and_several_a_list():
     disc = Indenter(DISC.heights, DISC.spacing, length_unit="um")
-    single, several = contact_at(disc, force=1.0), contact_at(disc, force=[1.0])
+    single, several = contact_at(disc, force=0.01), contact_at(disc, force=[0.01])
     assert isinstance(several, list)
     assert single.depth == several[0].depth
     assert (single.length_unit, single.spacing, single.row_spacing) == ("um", DISC.spacing, DISC.spacing)

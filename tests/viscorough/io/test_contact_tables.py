@@ -154,6 +154,7 @@ def test_progress_of_contacts_and_grid_errors_rises_to_one():
     assert done[-1] == pytest.approx(1.0)
 
 
+@pytest.mark.filterwarnings("default")
 def test_failures_and_warnings_become_texts_without_the_path():
     def fail():
         raise ValueError("a.csv: it is empty.")

@@ -169,6 +169,7 @@ INDENTERS = {
 }
 
 
+@pytest.mark.filterwarnings("ignore:indent. .*complete", "ignore:.*larger than the map is wide")
 @pytest.mark.parametrize("tolerance", [1e-1, 1e-8])
 @pytest.mark.parametrize("kind", INDENTERS)
 def test_curves_that_the_solvers_compute_are_read(kind, tolerance):

@@ -1,7 +1,5 @@
 """Common properties of the figures: looks of the Hurst exponents, and complete and reproducible files."""
 
-import itertools
-
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
@@ -25,12 +23,6 @@ def test_looks_of_a_hurst_exponent_do_not_depend_on_the_list():
         assert len({str(look[name]) for look in looks.values()}) == 4
     grey = [np.dot(to_rgb(look["color"]), (0.3, 0.6, 0.1)) for look in looks.values()]
     assert (np.diff([*grey, 0.77]) > 0.07).all()  # grey levels differ from each other and from the paper's white
-
-
-def test_colours_of_neighbouring_hurst_exponents_differ():
-    """The colours of 0.9 and 1 are included. Black and a pure colour have the distance 1."""
-    colours = [np.array(to_rgb(look["color"])) for look in hurst_looks([0.1, 0.4, 0.6, 0.9, 1.0]).values()]
-    assert min(np.linalg.norm(after - before) for before, after in itertools.pairwise(colours)) > 0.2
 
 
 @pytest.mark.parametrize(

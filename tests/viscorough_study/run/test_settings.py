@@ -118,8 +118,8 @@ def places(settings, path=()):
 
 @pytest.mark.parametrize(
     "odd",
-    [object(), float("nan"), 10**400, {1: 2}, {"a\nb": 1}, [[None]], b"x"],
-    ids=["object", "nan", "huge", "mapping", "two lines", "nested list", "bytes"],
+    [object(), 10**400, {"a\nb": 1}, [[None]]],
+    ids=["object", "huge", "two lines", "nested list"],
 )
 def test_odd_value_of_any_setting_is_reported_in_one_line_with_its_key(odd):
     scan = SCAN | {"spacing": [1.0], "preparation": {"crop": [[0, 1], [0, 1]], "flip": True}, "poisson_ratio": 0.3}

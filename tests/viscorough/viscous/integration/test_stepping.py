@@ -34,6 +34,7 @@ def test_implicit_steps_find_depths_at_jumps_of_the_force():
     np.testing.assert_allclose(steps.depth[-1], sphere.mdr_profile(0.45), rtol=1e-2)
 
 
+@pytest.mark.filterwarnings("ignore:time steps. with these steps the indenter overlaps")
 def test_heun_steps_are_more_accurate_than_explicit_ones(events):
     errors = {"explicit": [], "heun": []}
     for steps in (32, 64, 128, 256):

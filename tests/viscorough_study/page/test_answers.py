@@ -16,22 +16,36 @@ FOUND = answers(Results({"claims": TABLE}, {}))
 FOLLOWING = {"power_law": "power_law_control", "beta_lines": "exponent_small_hurst"}
 
 
-@pytest.fixture(scope="module")
-def text():
+def text_of(found, claims):
     """Return the list of answers with <claim> for a claim's verdict and {row column} for a number."""
     template = (ROOT / "workflow/page/page.html.jinja").read_text(encoding="utf-8")
     findings = re.search("({% set a = answers %}.*?)</section>", template, re.DOTALL)[1]
     plain = "{% macro finding(name, heading, marks) %}{{ marks }} {{ caller() }}{% endmacro %}"
     answer = template.split("{% macro picture")[0] + plain + findings
-    marks = {name: f"<{name}>" for name in CLAIMS}
+    marks = {name: f"<{name}>" for name in claims}
     shown = {
         "overall": marks,
         "case_counts": dict.fromkeys(marks, ""),
         "verdict_short": dict.fromkeys(marks.values(), ""),
     }
-    html = render(answer, "", {}, {}, conventions={}, answers=FOUND, **shown)
+    html = render(answer, "", {}, {}, conventions={}, answers=found, **shown)
     html = re.sub(r'<data [^>]*data-row="(\d+)" data-column="(\w+)"[^>]*>[^<]*</data>', r"{\1 \2}", html)
     return " ".join(re.sub("<.*?>", "", html).split()).replace("&lt;", "<").replace("&gt;", ">")
+
+
+@pytest.fixture(scope="module")
+def text():
+    return text_of(FOUND, CLAIMS)
+
+
+@pytest.mark.parametrize(
+    "claim", ["beta", "beta_lines", "coincide", "exponent_small_hurst", "power_law", "one_constant"]
+)
+def test_claims_without_a_case_leave_a_complete_page(claim):
+    """A run may have only small or only large Hurst exponents."""
+    found = answers(Results({"claims": TABLE[TABLE["claim"] != claim]}, {}))
+    page = text_of(found, set(CLAIMS) - {claim})
+    assert claim == "exponent_small_hurst" or "no case in this run" in page
 
 
 def test_numbers_belong_to_the_claims_named_before_them(text):

@@ -5,6 +5,7 @@
 3. Halve n, compute the curve again, and estimate its error by a comparison with the previous curve (see grid_error).
 4. If the estimate is within the requested error, solve a few contacts of the full map, and compare them with the curve.
    They detect features that both samplings miss, such as a spike, or that both misrepresent, such as a fine texture.
+   The depths at these contacts also detect jumps of the stiffness between them that lie at other forces on the curve.
 5. Repeat steps 3 and 4 until estimate and comparison are within the requested error, or n = 1.
 
 Most of the time is spent on the last curve and on the contacts of the full map: the previous curve has a quarter of the
@@ -49,12 +50,12 @@ _FEWEST_ELEMENTS = 100
 # Number of contacts of the full map that are compared with a curve, and position of the last of them in the range of
 # ln F from the lowest force of mean errors (0) to the end of the curve (1). Missed features cause the largest
 # differences at light loads, because they touch first, and fine textures at middle loads.
-_CONTACTS, _LAST_CONTACT = 7, 0.55
+_CONTACTS, _LAST_CONTACT = 2, 0.35
 # Largest tolerance of the contacts of the full map. To a looser tolerance, their contact fractions are a few percent
 # too large, so that the curve would end too early.
 _CONTACT_TOLERANCE = 1e-2
 # Largest number of contacts that are added if the first do not suffice for a decision.
-_FURTHER_CONTACTS = 6
+_FURTHER_CONTACTS = 4
 # A contact at lighter load is added if ln F of the lightest contact exceeds that of the lowest force by more than this.
 _LARGEST_GAP = 0.2
 # A curve is accepted if it differs from the contacts of the full map by at most this share of the requested error. The
@@ -62,11 +63,16 @@ _LARGEST_GAP = 0.2
 _WITHIN = 0.7
 # Curves are compared at forces from this share of their last force on, if the rms height is 0.
 _LEAST_RANGE = 1e-3
-# Number of forces from which the depths of the contacts are interpolated.
-_POINTS = 200
-# Ratios of successive depths at which the end of the curve is searched for on the full map. Small ratios come first,
-# since long steps would lead far beyond the end. If no depth suffices, the curve ends at complete contact.
-_RATIOS_TO_THE_END = 1.1, 1.3, 1.5, *[2.0] * 10
+# Number of forces from which the depths of the contacts are interpolated, and of forces between two contacts at which
+# the curve is evaluated.
+_POINTS, _POINTS_BETWEEN = 200, 65
+# A coarser map reaches a contact fraction at a smaller force. So a curve that is to end at a contact fraction of the
+# full map is computed up to this multiple of the force at which the next coarser map reaches it.
+_BEYOND_COARSER = 1.7
+# Ratios of successive depths at which the end of the curve is searched for on the full map, if the curve ends too
+# early. Small ratios come first, since long steps would lead far beyond the end. If no depth suffices, the curve ends
+# at complete contact.
+_RATIOS_TO_THE_END = 1.0, 1.1, 1.3, 1.5, *[2.0] * 10
 # Work for contacts of the full map, relative to its whole curve. It only affects the reported progress.
 _SHARE_OF_CONTACTS = 0.2
 # Names of the quantities of a LoadingCurve that have a value for each level (computed point).
@@ -110,20 +116,28 @@ def curve_within(
     curve = compute(sampled, tolerance, until_fraction, until_force, part_of(progress, *ends[:2]))
     tolerance *= _share_of_depth(indenter, curve, sampled)
     full_map = _FullMap(indenter, solver(min(tolerance, _CONTACT_TOLERANCE)))
-    last_force, rejected = until_force, ""
+    last_force, is_last, rejected = until_force, False, ""
     for step, start, end in zip(steps[1:-1], ends[1:], ends[2:], strict=False):
         coarse, coarse_map, sampled = curve, sampled, every_nth_point(indenter, step)
-        if step == steps[1]:
-            last_force = full_map.last_force(coarse, coarse_map, until_fraction, until_force)
+        missed = highest_missed(sampled, coarse_map)
+        if not is_last:
+            last_force = min(_BEYOND_COARSER * _force_at_fraction(coarse, until_fraction), until_force)
         curve = compute(sampled, tolerance, 1.0, last_force, part_of(progress, start, end))
-        curve = with_grid_errors(curve, coarse, indenter, highest_missed(sampled, coarse_map))
+        curve = with_grid_errors(curve, coarse, indenter, missed)
         estimate = curve.mean_grid_error or 0.0
         rejected = f"; on every {ordinal(step)} point it is {_percent(estimate)}"
         if estimate > error:
             continue
+        if not is_last:
+            is_last, reached = True, full_map.last_force(curve, sampled, until_fraction, until_force)
+            if reached > curve.force[-1]:
+                last_force = reached
+                curve = compute(sampled, tolerance, 1.0, last_force, part_of(progress, end, end))
+                curve = with_grid_errors(curve, coarse, indenter, missed)
+                estimate = curve.mean_grid_error or 0.0
         completed = full_map.completed(curve, sampled, last_force)
         difference, is_within = full_map.compare(completed, error)
-        if is_within:
+        if is_within and estimate <= error:
             choice = f"every {ordinal(step)} point, {_size(sampled)} of {_size(indenter)}, and {_stated(tolerance)}"
             choice += f": estimated error {_percent(estimate)}, within the requested {_percent(error)}"
             choice += f"; contacts of all points differ by {_percent(difference)}"
@@ -158,11 +172,12 @@ class _FullMap:
         return self._solver.first_contact()
 
     def last_force(self, curve: LoadingCurve, sampled: Indenter, until_fraction: float, until_force: float) -> float:
-        """Return the force F/G at which the full map reaches a contact fraction, but at most `until_force`.
+        """Return the force F/G at which the curve must end to reach a contact fraction of the full map.
 
-        The search begins at the depth where a sampled map reaches this contact fraction.
+        This is the last force of the curve, if the full map reaches the contact fraction at its last depth. The
+        returned force does not exceed `until_force`.
 
-        curve : curve of `sampled` up to the contact fraction
+        curve : curve of `sampled`
         """
         if curve.force[-1] >= until_force or self._solver.is_flat:
             return until_force
@@ -172,7 +187,7 @@ class _FullMap:
             contact = self._solver.advance(contact, depth)
             if contact.count >= until_fraction * self._solver.elements.count:
                 self._contacts.append(_ContactValues.of(contact))
-                return min(contact.force, until_force)
+                return float(curve.force[-1]) if ratio == 1 else min(contact.force, until_force)
         return min(self._solver.solve_complete_contact().force, until_force)
 
     def completed(self, curve: LoadingCurve, sampled: Indenter, last_force: float) -> LoadingCurve:
@@ -180,7 +195,7 @@ class _FullMap:
 
         - If the sampling misses the highest elements of the full map, these alone carry the load at first. The curve
           then begins with the first level of the full map. The first levels of the sampled map are left out if they
-          carry less than the highest elements would at the same depth.
+          are less stiff than the highest elements.
         - If the sampled map is in complete contact before the last force, a level is added on the straight line that
           leads to this force.
         """
@@ -199,8 +214,9 @@ class _FullMap:
         """Return the difference of a curve from the full map, and whether it is within a requested error.
 
         The difference is the relative difference of the velocity, as root mean square over the range of ln F in which
-        the requested error is defined. It is linear between the contacts. Further contacts are solved where they matter
-        most, until the larger of two neighbouring differences could take its place without changing the decision.
+        the requested error is defined. Its square is linear between the contacts, apart from the part that
+        `_hidden_between` adds. Further contacts are solved where they matter most, until the larger of two neighbouring
+        differences could take its place without changing the decision.
         """
         largest = curve.force[-1]
         lowest = lowest_force(self._indenter, largest) or _LEAST_RANGE * largest
@@ -211,21 +227,26 @@ class _FullMap:
         for further in range(_FURTHER_CONTACTS + 1):
             self._contacts.sort()
             depth, force, stiffness = np.array(self._contacts).T
-            square = np.log(stiffness / curve.at_force(np.minimum(force, largest))[1]) ** 2
+            difference = np.log(stiffness / curve.at_force(np.minimum(force, largest))[1])
+            square = difference**2
             # Outside the range of the contacts, the difference is the same as in the first or in the last contact.
             points = np.clip(np.log(force), first, last)
             width, ends = np.diff(points), (points[0] - first) * square[0] + (last - points[-1]) * square[-1]
             linear, upper = width * (square[1:] + square[:-1]) / 2, width * np.maximum(square[1:], square[:-1])
-            mean, most = (float(np.sqrt((parts.sum() + ends) / (last - first))) for parts in (linear, upper))
+            hidden = _hidden_between(curve, depth, force, difference)
+            least, mean, most = (
+                float(np.sqrt((parts.sum() + ends) / (last - first)))
+                for parts in (linear, linear + hidden, upper + hidden)
+            )
             lacks_light_loads = points[0] - first > _LARGEST_GAP
             is_decided = most <= _WITHIN * error and not lacks_light_loads
-            if mean > error or is_decided or further == _FURTHER_CONTACTS:
+            if least > error or is_decided or further == _FURTHER_CONTACTS:
                 break
             if lacks_light_loads:
                 # Assume F ∝ u² for the depth u, as for a cone.
                 self._solve(depth[:1] * np.exp(0.5 * (first - points[0])))
             else:
-                between = int(np.argmax(upper - linear))
+                between = int(np.argmax(upper - linear + hidden))
                 self._solve(0.5 * (depth[between : between + 1] + depth[between + 1]))
         return mean, mean <= _WITHIN * error
 
@@ -262,20 +283,66 @@ def _depths_to_compare(curve: LoadingCurve, first: float, last: float) -> Array:
     return np.interp(np.linspace(way[0], way[-1], _CONTACTS), way, depth)
 
 
+def _hidden_between(curve: LoadingCurve, depth: Array, force: Array, difference: Array) -> Array:
+    """Return ∫d² dlnF for differences d of the velocity that only the depths of contacts of the full map show.
+
+    Depth u and force F determine ∫dF/k of the full map between two contacts, where k is the stiffness. Let R be the
+    part of this integral that the curve, corrected by the differences at both contacts, misses. R is due to a relative
+    difference of 1/k, or to jumps of k at other forces, as on stepped surfaces. In the second case the curve is shifted
+    in ln F by R/(g₂ − g₁), where g = u − F/k is the depth at which the tangent of the curve at a contact has no force.
+    The larger of the two integrals is returned for each pair of neighbouring contacts.
+
+    curve : curve that is compared with the full map
+    depth, force : depth and force of the contacts, in increasing order
+    difference : ln k of the full map minus ln k of the curve at the force of each contact
+    """
+    inside = np.clip(force, curve.force[0], curve.force[-1])
+    low, high = inside[:-1, None], inside[1:, None]
+    share = np.linspace(0, 1, _POINTS_BETWEEN)
+    points = np.log(low) + share * np.log(high / low)
+    forces = np.clip(np.exp(points), low, high)
+    stiffness = curve.at_force(forces)[1]
+    at_depth, at_stiffness = curve.at_force(inside)
+    at_depth = at_depth + (force - inside) / at_stiffness
+    linear = difference[:-1, None] + share * np.diff(difference)[:, None]
+    rise, width = np.diff(at_depth), points[:, -1] - points[:, 0]
+    missing = np.abs(np.diff(depth) - rise - np.trapezoid(np.expm1(-linear) / stiffness, forces, axis=1))
+    uniform = width * np.divide(missing, rise, out=np.zeros_like(rise), where=rise > 0) ** 2
+    gaps = np.diff(at_depth - force / at_stiffness)
+    shift = np.divide(missing, gaps, out=width.copy(), where=missing < gaps * width)
+    largest = uniform
+    for moved in (points - shift[:, None], points + shift[:, None]):
+        ratio = np.log(curve.at_force(np.clip(np.exp(moved), low, high))[1] / stiffness)
+        largest = np.maximum(largest, np.trapezoid(ratio**2, points, axis=1))
+    return largest
+
+
+def _force_at_fraction(curve: LoadingCurve, fraction: float) -> float:
+    """Return the force F/G at which a curve reaches a contact fraction, or its last force if it ends before."""
+    return float(np.exp(np.interp(fraction, curve.contact_fraction, np.log(curve.force))))
+
+
 def _with_first_level(levels: dict[str, Array], depth: float, force: float) -> dict[str, Array]:
     """Return the levels of a curve after a straight first part up to a depth u₁ and force F₁.
 
-    The first part is continued until it meets the tangent of a level. Levels that carry less than its continuation are
-    left out.
+    The stiffness is F₁/u₁ until it is exceeded by the stiffness of the given curve, but at least up to the depth u₁. So
+    all later forces increase by the same amount. Levels before are left out.
 
     levels : {name of a quantity: its values at all levels}
     depth, force : u₁ [length] and F₁ [length²]
     """
     straight = force / depth
-    kept = levels["force"] > straight * levels["depth"] * (1 + _ROUNDING)
-    levels = {name: values[kept] for name, values in levels.items()}
-    after = {name: values[0] for name, values in levels.items()}
-    meeting = (after["stiffness"] * after["depth"] - after["force"]) / (after["stiffness"] - straight)
+    stiff, at_depth, at_force = levels["stiffness"], levels["depth"], levels["force"]
+    follows = (stiff > straight * (1 + _ROUNDING)) & (at_depth > depth * (1 + _ROUNDING))
+    start = int(np.argmax(follows)) if follows.any() else stiff.size - 1
+    # The stiffness exceeds F₁/u₁ where the tangent at the level `start` meets the tangent before it.
+    offset = at_force - stiff * at_depth
+    tangent_force, tangent_stiffness = (offset[start - 1], stiff[start - 1]) if start else (0.0, 0.0)
+    meeting = (tangent_force - offset[start]) / (stiff[start] - tangent_stiffness)
+    meeting = min(max(meeting, depth), at_depth[start])
+    after = {name: values[start] for name, values in levels.items()}
+    levels = {name: values[start:] for name, values in levels.items()}
+    levels["force"] = levels["force"] + (straight * meeting - (offset[start] + stiff[start] * meeting))
     depths = np.array([depth, meeting] if meeting > depth * (1 + _ROUNDING) else [depth])
     first = {name: np.full_like(values[:1], after[name], shape=depths.size) for name, values in levels.items()}
     first |= {"depth": depths, "force": straight * depths, "stiffness": np.full(depths.size, straight)}

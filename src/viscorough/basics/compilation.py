@@ -144,7 +144,7 @@ def _warn_cache_disabled() -> None:
 
 
 def njit(
-    function: Callable[..., Any] | None = None, *, inner: bool = False, fastmath: bool = False
+    function: Callable[..., Any] | None = None, *, inner: bool = False, fastmath: bool = False, counted: bool = True
 ) -> Callable[..., Any]:
     """Decorate a function so that numba compiles it for the types of its arguments and caches the code on disk.
 
@@ -157,11 +157,13 @@ def njit(
         functions, and it is neither cached nor callable from Python. This saves half of the compile time of a short
         function
     fastmath : True if the compiler may reorder sums and assume that numbers are finite
+    counted : False for an inner function that creates no array. Numba then does not count the references to the arrays
+        of its arguments, which would take most of the time of short functions with many arrays
     """
     if function is None:
-        return functools.partial(njit, inner=inner, fastmath=fastmath)
+        return functools.partial(njit, inner=inner, fastmath=fastmath, counted=counted)
     options: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": fastmath}
-    options |= {"no_cfunc_wrapper": True, "no_cpython_wrapper": inner}  # no function is called from C
+    options |= {"no_cfunc_wrapper": True, "no_cpython_wrapper": inner, "_nrt": counted}  # no function is called from C
     compiled: Any = numba.njit(function, **options)
     if compiled is function:  # numba compiles nothing if NUMBA_DISABLE_JIT is set
         return function

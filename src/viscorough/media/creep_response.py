@@ -16,9 +16,9 @@ from viscorough.media.spectra import Spectrum
 # Let x be the length of an interval divided by a retardation time. For x below _SERIES_BELOW, (exp(−x) − 1 + x)/x is
 # computed by a series with _SERIES_TERMS terms, because the formula would lose digits.
 _SERIES_BELOW, _SERIES_TERMS = 0.3, 12
-# For x above _KEPT_FROM, `decay` computes exp(−x) first, otherwise 1 − exp(−x). From x = _VANISHED on, exp(−x) is less
-# than the smallest floating-point number.
-_KEPT_FROM, _VANISHED = 1.0, 746.0
+# For x above _KEPT_FROM, `decay` computes exp(−x) first, otherwise 1 − exp(−x). Below _SLIGHT, six terms of a series
+# suffice. From x = _VANISHED on, exp(−x) counts as 0: it is less than 1e-34.
+_KEPT_FROM, _SLIGHT, _VANISHED = 1.0, 0.01, 80.0
 
 
 def creep_response(spectrum: Spectrum, load: Load) -> Array:
@@ -51,13 +51,16 @@ def decay(x):
     if x > _KEPT_FROM:
         kept = exponential(x)
         return kept, (1 - kept) / x
-    mean = -np.expm1(-x) / x if x > 0 else 1.0
+    if x < _SLIGHT:
+        mean = 1 - x * (1 / 2 - x * (1 / 6 - x * (1 / 24 - x * (1 / 120 - x * (1 / 720)))))
+    else:
+        mean = -np.expm1(-x) / x
     return 1 - x * mean, mean
 
 
 @njit(inner=True)
 def exponential(x):
-    """Return exp(−x). Where the result is 0, the exponential function of the C library takes three times as long."""
+    """Return exp(−x), or 0 if it is negligible, because exponential functions take most of the time of a motion."""
     return np.exp(-x) if x < _VANISHED else 0.0
 
 

@@ -16,9 +16,6 @@ from viscorough.basics.types import Array
 
 # Relative error of the springs and dashpots that approximate a power law.
 POWER_LAW_ERROR = 1e-8
-# Rate of the slowest element in the approximation of a power law, multiplied by the longest time. Up to the longest
-# time, the creep of slower elements is linear in time to 1e-8.
-_SLOWEST = 1e-8
 # Number of bisections of an interval that contains a zero. The first ten reduce the ratio of the ends of the interval
 # to 2. The others find the zero to rounding.
 _BISECTIONS = 80
@@ -215,11 +212,13 @@ def power_law_spectrum(modulus: float, exponent: float, shortest: float, longest
 
     The integral t^a/Γ(1 + a) = sin(πa)/π ∫(1 − exp(−t eˣ)) exp(−a x) dx is replaced by a sum at equal steps of x, with
     one Kelvin-Voigt element per step. A spring replaces all elements that are much faster than `shortest`. A dashpot
-    replaces all elements that are much slower than `longest`. The relative error of J is about 1e-8.
+    replaces all elements up to the rate λ that are much slower than `longest` = T. They creep by z − z²/2 for z = λT,
+    so the dashpot causes a relative error of less than z^(2−a)/10. The relative error of J is about 1e-8.
     """
-    step = np.pi**2 / -np.log(POWER_LAW_ERROR)
-    start = np.log(_SLOWEST / longest)
-    logarithms = np.arange(start, np.log(-np.log(POWER_LAW_ERROR) * 2 / shortest) + step, step)
+    logarithm = -np.log(POWER_LAW_ERROR)
+    step = np.pi**2 / logarithm
+    start = -logarithm / (2 - exponent) - np.log(longest)
+    logarithms = np.arange(start, np.log(logarithm / shortest) + step, step)
     weight = np.sin(np.pi * exponent) / np.pi * step / modulus
     faster = np.exp(-exponent * (logarithms[-1] + step)) / -np.expm1(-exponent * step)
     slower = np.exp((1 - exponent) * (logarithms[0] - step)) / -np.expm1(-(1 - exponent) * step)

@@ -35,7 +35,7 @@ from viscorough.media.creep_response import creep_response
 from viscorough.media.kinds import medium_of
 from viscorough.media.load import Load
 from viscorough.media.medium import Medium
-from viscorough.media.spectra import Spectrum, zero_of_increasing
+from viscorough.media.spectra import POWER_LAW_ERROR, Spectrum, zero_of_increasing
 from viscorough.results.loading_curve import LoadingCurve, check_curve
 from viscorough.results.motion import Motion
 from viscorough.viscous.crossing import first_decrease
@@ -283,7 +283,8 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
             f"{argument('times')}: missing, and the creep is from F/G {at_once:.6g}, at once, to {at_last:.6g}, in the "
             f"end, beside the curve, from {first:.6g} to {last:.6g}; times or another force are needed"
         )
-    start = first if at_once < first else at_once + _EARLY * (min(last, at_last) - at_once)
+    # Before the first level the depth is unknown, so the times begin beyond it in spite of the error of a springpot.
+    start = (1 + 10 * POWER_LAW_ERROR) * first if at_once < first else at_once + _EARLY * (min(last, at_last) - at_once)
     end = last if at_last >= last else at_last - _EARLY * (at_last - max(first, at_once))
     target = np.array([start, end]) / force
     with np.errstate(all="ignore"):

@@ -27,7 +27,7 @@ event to event:
    evaluated only when this spring can touch next.
 4. The force of the last spring in contact is a sum of exponentials and a parabola in time, and so is the overlap of the
    indenter with the first free spring. The first time when such a function becomes positive is bracketed by bounds of
-   its curvature, and then found by Newton's method.
+   its curvature, and then found by Halley's method.
 5. At a step of the load, every spring responds elastically with the modulus G₀ = G∞ + Σ G_b. The events at this time
    are followed in their order. A dashpot parallel to the medium does not move at a step.
 
@@ -43,7 +43,7 @@ from viscorough.basics.interrupts import uninterrupted
 from viscorough.basics.types import Array, Integers, Mask
 from viscorough.media.creep_response import decay, exponential
 from viscorough.media.spectra import Spectrum
-from viscorough.viscous.crossing import first_crossing, second_mean
+from viscorough.viscous.crossing import INTERVALS, first_crossing, second_mean
 
 # Rounding error of a force or an overlap, relative to the size of its terms. A spring is released only if its tension
 # exceeds this error, and touches only if its overlap does.
@@ -53,8 +53,9 @@ _ROUNDING = 1e-14
 _AT_ONCE = 1e-11
 # The force of a spring is a sum of exponentials of the time since the last event or sample. Terms that have decayed
 # leave their rounding errors in the sum. If the next release is more than _FORGOTTEN relaxation times of the fastest
-# branch ahead, the springs first move by the share _APPROACH of the time until the release. Then a new sum begins.
-_FORGOTTEN, _APPROACH = 5.0, 0.999
+# branch ahead, the springs first move by the share _APPROACH of the time until the release. Then a new sum begins. This
+# time ends before the release, when the force of the spring is still at most _ROUGHLY times its force at the start.
+_FORGOTTEN, _APPROACH, _ROUGHLY = 5.0, 0.999, 1e-4
 # Limit for the number of events at one time, divided by the number of springs. Only rounding errors can lead to more
 # events, since at one time a spring can be released once and touch once.
 _MOST_AT_ONCE = 4
@@ -151,10 +152,11 @@ class _Scratch(NamedTuple):
     """Work arrays, which hold no state.
 
     since, kept : time since the last touch of a spring, shape (1,), and exp(−r_b · since), shape (branches,); see
-        `_kept_since`
+        `_decay_since`
     tension : amplitudes of the exponentials in the tension of the last spring in contact, shape (branches,)
     overlap, drive : amplitudes and their growth in the overlap with the first free spring, shape (elements,)
     still : zeros, shape (branches,)
+    stack : intervals of time that `first_crossing` has not searched yet, see there
     """
 
     since: Array
@@ -163,6 +165,7 @@ class _Scratch(NamedTuple):
     overlap: Array
     drive: Array
     still: Array
+    stack: Array
 
 
 class _System(NamedTuple):
@@ -231,12 +234,27 @@ def move_row(
     return motion._replace(released_from=motion.released_from + times[0], until=motion.until + times[0])
 
 
-@njit(inner=True)
-def _kept_since(system, time, i):
-    """Return exp(−r_b (t − t_i)) for every branch b, where t_i is the time when spring i touched last.
+@njit(inner=True, counted=False)
+def _add_multiple(sums, factor, values):
+    """Add `factor` × `values` to the array `sums` of the same length, in place."""
+    for i in range(sums.size):
+        sums[i] += factor * values[i]
 
-    The result is the array `kept` of the scratch. An event needs the same values several times, so they are computed
-    only if the time since the touch has changed.
+
+@njit(inner=True, counted=False)
+def _sum_of_moduli(spectrum):
+    """Return Σ G_b over the Maxwell branches."""
+    total = 0.0
+    for b in range(spectrum.moduli.size):
+        total += spectrum.moduli[b]
+    return total
+
+
+@njit(inner=True, counted=False)
+def _decay_since(system, time, i):
+    """Set `kept` of the scratch to exp(−r_b (t − t_i)) for every branch b, where spring i touched last at time t_i.
+
+    An event needs the same values several times, so they are computed only if the time since the touch has changed.
     """
     scratch, rates = system.scratch, system.spectrum.rates
     since = time - system.springs.joined[i]
@@ -244,10 +262,9 @@ def _kept_since(system, time, i):
         scratch.since[0] = since
         for b in range(rates.size):
             scratch.kept[b] = exponential(rates[b] * since)
-    return scratch.kept
 
 
-@njit(inner=True)
+@njit(inner=True, counted=False)
 def _release(system, now):
     """Return value, slope and rounding error of −φ, the tension of the last spring in contact.
 
@@ -256,7 +273,8 @@ def _release(system, now):
     """
     row, spectrum, springs, first = system.row, system.spectrum, system.springs, system.scratch.tension
     top, gap = now.count - 1, row.gaps[now.count - 1]
-    kept = _kept_since(system, now.time, top)
+    kept = system.scratch.kept
+    _decay_since(system, now.time, top)
     if row.by_depth:
         value = spectrum.relaxed * (now.depth - gap) + spectrum.viscosity * now.rate
         size = spectrum.relaxed * (abs(now.depth) + gap) + abs(spectrum.viscosity * now.rate)
@@ -279,7 +297,7 @@ def _release(system, now):
     return -value, -slope, _ROUNDING * size
 
 
-@njit(inner=True)
+@njit(inner=True, counted=False)
 def _position(system, i, time):
     """Return the depth g + y at which an indenter would touch the free spring i at a time."""
     spectrum, springs, position = system.spectrum, system.springs, system.row.gaps[i]
@@ -291,29 +309,30 @@ def _position(system, i, time):
     return position + springs.rest[i]
 
 
-@njit(inner=True)
+@njit(inner=True, counted=False)
 def _position_of_next(system, now):
     """Return the depth at which an indenter would touch the first free spring; the limit of the row if none is free."""
     return _position(system, now.count, now.time) if now.count < system.row.gaps.size else system.row.limit
 
 
-@njit(inner=True)
+@njit(inner=True, counted=False)
 def _carry(system, now):
     """Set R_j of the springs in contact, `carried`, from their internal variables, or from u and F with a dashpot."""
     row, spectrum, springs = system.row, system.spectrum, system.springs
     stiffness, top = row.stiffness[now.count], now.count - 1
     if spectrum.viscosity > 0:
-        springs.carried[:] = now.force - spectrum.relaxed * (stiffness * now.depth - row.moment[now.count])
+        for j in range(spectrum.decays.size):
+            springs.carried[j] = now.force - spectrum.relaxed * (stiffness * now.depth - row.moment[now.count])
         return
     springs.carried[:] = 0.0
-    kept = _kept_since(system, now.time, top)
+    kept = system.scratch.kept
+    _decay_since(system, now.time, top)
     for b in range(spectrum.rates.size):
         variable = stiffness * springs.common[b] + springs.total[top, b] * kept[b]
-        for j in range(spectrum.decays.size):
-            springs.carried[j] += spectrum.remainders[b, j] * variable
+        _add_multiple(springs.carried, variable, spectrum.remainders[b])
 
 
-@njit(inner=True)
+@njit(inner=True, counted=False)
 def _let_go(system, now):
     """Release the last spring in contact, and store its state."""
     row, spectrum, springs, top = system.row, system.spectrum, system.springs, now.count - 1
@@ -325,15 +344,15 @@ def _let_go(system, now):
             springs.remainder[top, j] = -spectrum.relaxed * (now.depth - row.gaps[top])
     else:
         springs.remainder[top, :] = 0.0
-        kept = _kept_since(system, now.time, top)
+        kept = system.scratch.kept
+        _decay_since(system, now.time, top)
         for b in range(spectrum.rates.size):
             own = springs.common[b] + springs.offset[top, b] * kept[b]
-            for j in range(spectrum.decays.size):
-                springs.remainder[top, j] += spectrum.remainders[b, j] * own
+            _add_multiple(springs.remainder[top], own, spectrum.remainders[b])
     return _Now(now.time, now.depth, now.force, now.rate, top)
 
 
-@njit(inner=True)
+@njit(inner=True, counted=False)
 def _touch(system, now):
     """Add the first free spring to the springs in contact.
 
@@ -356,23 +375,23 @@ def _touch(system, now):
     for j in range(spectrum.decays.size):
         if springs.remainder[i, j] != 0:
             remainder = springs.remainder[i, j] * exponential(spectrum.decays[j] * (now.time - springs.left[i]))
-            for b in range(spectrum.rates.size):
-                springs.offset[i, b] += spectrum.branches[j, b] * remainder
-    kept = _kept_since(system, now.time, max(i - 1, 0))
+            _add_multiple(springs.offset[i], remainder, spectrum.branches[j])
+    kept = system.scratch.kept
+    _decay_since(system, now.time, max(i - 1, 0))
     for b in range(spectrum.rates.size):
         own = springs.offset[i, b]
         springs.offset[i, b] = own - springs.common[b]
         before = springs.total[i - 1, b] * kept[b] if i > 0 else 0.0
         springs.total[i, b] = before
         excess += spectrum.moduli[b] * (springs.offset[i, b] - before / stiffness if from_balance else own)
-    excess /= spectrum.moduli.sum()
+    excess /= _sum_of_moduli(spectrum)
     for b in range(spectrum.rates.size):
         springs.offset[i, b] -= excess
         springs.total[i, b] += row.weights[i] * springs.offset[i, b]
     return touched
 
 
-@njit(inner=True)
+@njit(inner=True, counted=False)
 def _force_in_contact(system, now):
     """Return the force of the springs in contact, from their deflections and internal variables.
 
@@ -381,14 +400,15 @@ def _force_in_contact(system, now):
     row, spectrum, springs, count = system.row, system.spectrum, system.springs, now.count
     stiffness = row.stiffness[count]
     force = spectrum.relaxed * (stiffness * now.depth - row.moment[count])
-    kept = _kept_since(system, now.time, count - 1)
+    kept = system.scratch.kept
+    _decay_since(system, now.time, count - 1)
     for b in range(spectrum.rates.size):
         variable = stiffness * springs.common[b] + springs.total[count - 1, b] * kept[b]
         force += spectrum.moduli[b] * variable
     return force
 
 
-@njit(inner=True)
+@njit(inner=True, counted=False)
 def _balanced(system, now):
     """Change the depth slightly, so that the springs in contact carry exactly the prescribed force.
 
@@ -402,13 +422,14 @@ def _balanced(system, now):
     spectrum, springs = system.spectrum, system.springs
     if spectrum.viscosity > 0 or spectrum.relaxed == 0:
         return now
-    modulus = system.row.stiffness[now.count] * (spectrum.relaxed + spectrum.moduli.sum())
+    modulus = system.row.stiffness[now.count] * (spectrum.relaxed + _sum_of_moduli(spectrum))
     step = (now.force - _force_in_contact(system, now)) / modulus
-    springs.common[:] += step
+    for b in range(spectrum.rates.size):
+        springs.common[b] += step
     return _Now(now.time, now.depth + step, now.force, now.rate, now.count)
 
 
-@njit(inner=True)
+@njit(inner=True, counted=False)
 def _observe(system, now):
     """Return force and velocity.
 
@@ -430,7 +451,7 @@ def _observe(system, now):
     return now.force, flow / stiffness
 
 
-@njit(inner=True)
+@njit(inner=True, counted=False)
 def _jump(system, now, target):
     """Change the load in a step: the depth or the force to `target`.
 
@@ -453,7 +474,8 @@ def _jump(system, now, target):
         ended = INFINITE if rises or overlap > _ROUNDING * abs(target) else SETTLED
         return _Now(now.time, target, now.force, now.rate, now.count), ended
     # The dashpot keeps the indenter in place. Release the springs that the new force would pull.
-    system.springs.carried[:] += target - now.force
+    for j in range(system.spectrum.decays.size):
+        system.springs.carried[j] += target - now.force
     now = _Now(now.time, now.depth, target, 0.0, now.count)
     while now.count > 1:
         value, _, rounding = _release(system, now)
@@ -464,7 +486,7 @@ def _jump(system, now, target):
     return now, SETTLED
 
 
-@njit(inner=True)
+@njit(inner=True, counted=False)
 def _elastic_jump(system, now, target):
     """Change the load in a step, in a medium without a parallel dashpot; see `_jump`.
 
@@ -472,7 +494,7 @@ def _elastic_jump(system, now, target):
     another.
     """
     row, spectrum, springs = system.row, system.spectrum, system.springs
-    modulus = spectrum.relaxed + spectrum.moduli.sum()
+    modulus = spectrum.relaxed + _sum_of_moduli(spectrum)
     for _ in range(_MOST_AT_ONCE * row.gaps.size + 8):
         stiffness = row.stiffness[now.count] * modulus
         rises = target > (now.depth if row.by_depth else now.force)
@@ -486,7 +508,8 @@ def _elastic_jump(system, now, target):
             reaches = step <= target - now.depth if row.by_depth else stiffness * step <= target - now.force
         if reaches:
             step = target - now.depth if row.by_depth else (target - now.force) / stiffness
-        springs.common[:] += step
+        for b in range(spectrum.rates.size):
+            springs.common[b] += step
         depth = target if row.by_depth and reaches else now.depth + step
         force = target if reaches else now.force + stiffness * step
         now = _Now(now.time, depth, force, now.rate, now.count)
@@ -498,13 +521,12 @@ def _elastic_jump(system, now, target):
     return now, RESTLESS
 
 
-@njit(inner=True)
+@njit(inner=True, counted=False)
 def _next_touch(system, now, until):
     """Return the time from now until the indenter touches the first free spring; inf if it is longer than `until`."""
     row, spectrum, springs = system.row, system.spectrum, system.springs
     overlap, drive, count = system.scratch.overlap, system.scratch.drive, now.count
-    reached = _position_of_next(system, now)
-    if not np.isfinite(reached):
+    if count == row.gaps.size and not np.isfinite(row.limit):
         return np.inf
     slope, bend = now.rate, 0.0
     overlap[:] = 0.0
@@ -516,29 +538,39 @@ def _next_touch(system, now, until):
         for j in range(spectrum.decays.size):
             overlap[j] = spectrum.flows[j] * springs.carried[j] / stiffness
             drive[j] = spectrum.flows[j] * now.rate / stiffness
+    reached = row.limit
     if count < row.gaps.size:
+        # The same sum as in `_position`, which needs the same exponential functions.
+        since, reached = now.time - springs.left[count], row.gaps[count]
         for j in range(spectrum.decays.size):
             if springs.remainder[count, j] != 0:
-                kept = exponential(spectrum.decays[j] * (now.time - springs.left[count]))
-                overlap[j] -= spectrum.flows[j] * springs.remainder[count, j] * kept
+                kept, mean = decay(spectrum.decays[j] * since)
+                flow = spectrum.flows[j] * springs.remainder[count, j]
+                reached += flow * since * mean
+                overlap[j] -= flow * kept
+        reached += springs.rest[count]
     rounding = _ROUNDING * (abs(now.depth) + (row.gaps[count] if count < row.gaps.size else 0.0))
-    return first_crossing(until, rounding, now.depth - reached, slope, bend, overlap, drive, spectrum.decays)
+    value, stack = now.depth - reached, system.scratch.stack
+    return first_crossing(until, rounding, 0.0, value, slope, bend, overlap, drive, spectrum.decays, stack)
 
 
-@njit(inner=True)
-def _next_release(system, now, until):
+@njit(inner=True, counted=False)
+def _next_release(system, now, until, early):
     """Return the time from now until the last spring in contact is released; inf if it is longer than `until`.
 
     Under a prescribed force, the first spring stays in contact.
+
+    early : the search may end before the release, when the force of the spring is at most this share of its force now
     """
     if now.count <= (0 if system.row.by_depth else 1):
         return np.inf
     value, slope, rounding = _release(system, now)
-    scratch = system.scratch
-    return first_crossing(until, rounding, value, slope, 0.0, scratch.tension, scratch.still, system.spectrum.rates)
+    first, second, rates = system.scratch.tension, system.scratch.still, system.spectrum.rates
+    early *= abs(value)
+    return first_crossing(until, rounding, early, value, slope, 0.0, first, second, rates, system.scratch.stack)
 
 
-@njit(inner=True)
+@njit(inner=True, counted=False)
 def _move(system, now, s, end):
     """Move all springs by a time s without events, and return the depth at its end.
 
@@ -564,15 +596,15 @@ def _move(system, now, s, end):
     for b in range(spectrum.rates.size):
         springs.common[b] = spectrum.fluidity * (now.force + rate * s) / spectrum.rates[b]
     for j in range(spectrum.decays.size):
-        for b in range(spectrum.rates.size):
-            springs.common[b] += spectrum.branches[j, b] * springs.carried[j]
-    kept = _kept_since(system, end, now.count - 1)
+        _add_multiple(springs.common, springs.carried[j], spectrum.branches[j])
+    kept = system.scratch.kept
+    _decay_since(system, end, now.count - 1)
     for b in range(spectrum.rates.size):
         springs.common[b] = (springs.common[b] - springs.total[now.count - 1, b] * kept[b]) / stiffness
     return now.depth + rise / stiffness
 
 
-@njit(inner=True)
+@njit(inner=True, counted=False)
 def _released(system, now):
     """Release the last spring in contact between two samples.
 
@@ -592,7 +624,7 @@ def _released(system, now):
     return now
 
 
-@njit(inner=True)
+@njit(inner=True, counted=False)
 def _touched(system, now):
     """Bring the first free spring into contact between two samples."""
     row, spectrum, springs, i = system.row, system.spectrum, system.springs, now.count
@@ -605,7 +637,7 @@ def _touched(system, now):
     return _touch(system, now)
 
 
-@njit(inner=True)
+@njit(inner=True, counted=False)
 def _ramp(system, now, interval, samples):
     """Move the springs from one sample to the next; return the moment at its end, and how the motion goes on.
 
@@ -615,31 +647,37 @@ def _ramp(system, now, interval, samples):
     spectrum, by_depth = system.spectrum, system.row.by_depth
     length = interval.end - interval.start
     now = _Now(now.time, now.depth, interval.before, (interval.after - interval.before) / length, now.count)
-    fastest = spectrum.rates.max() if spectrum.rates.size else 0.0
+    fastest = 0.0
+    for b in range(spectrum.rates.size):
+        fastest = max(fastest, spectrum.rates[b])
     at_once = _AT_ONCE * (interval.start if interval.start > 0 else length)
     # `passed` is the time since the start of the interval. Soon after the start it distinguishes times that are equal
     # in `time` within rounding. `events` counts the events at the time `at`.
     passed, started, events, at, pauses = 0.0, False, 0, 0.0, 0
+    force, velocity, touch, s, approaches = 0.0, 0.0, 0.0, 0.0, False
     while True:
-        force, velocity = _observe(system, now)
+        if not started or not by_depth:
+            force, velocity = _observe(system, now)
         left = length - passed
-        touch = _next_touch(system, now, left)
-        release = _next_release(system, now, min(left, touch))
-        event = min(touch, release)
+        touch = touch - s if approaches else _next_touch(system, now, left)
         paused = events > _MOST_AT_ONCE * system.row.gaps.size + 8
+        release = _next_release(system, now, min(left, touch), _ROUGHLY)
+        approaches = not paused and release < touch and release * fastest > _FORGOTTEN
+        approaches = approaches and passed + _APPROACH * release > passed
+        if np.isfinite(release) and not approaches:
+            release = _next_release(system, now, min(left, touch), 0.0)
         if paused:
             # A spring whose force is zero within rounding touches and is released again and again. Move on for a short
             # time without events.
             events, pauses = 0, pauses + 1
             s = min(_PAUSE * interval.end * 2.0**pauses, left)
             arrives = s == left
+        elif approaches:
+            s, arrives = _APPROACH * release, False
         else:
+            event = min(touch, release)
             arrives = event > left
             s = left if arrives else event
-        approaches = release < touch and not arrives and not paused
-        approaches = approaches and s * fastest > _FORGOTTEN and passed + _APPROACH * s > passed
-        if approaches:
-            s *= _APPROACH
         if not started and passed + s > at_once:
             started = True
             _record_start(system, now, force, velocity, samples, interval.number - 1)
@@ -671,7 +709,7 @@ def _ramp(system, now, interval, samples):
             now = _touched(system, now)
 
 
-@njit(inner=True)
+@njit(inner=True, counted=False)
 def _record(system, now, samples, k):
     """Write the state at sample k. If the load has a kink or a step here, this is the state just before it."""
     force, velocity = _observe(system, now)
@@ -681,7 +719,7 @@ def _record(system, now, samples, k):
     samples.deflection[k] = system.row.stiffness[now.count] * now.depth - system.row.moment[now.count]
 
 
-@njit(inner=True)
+@njit(inner=True, counted=False)
 def _record_start(system, now, force, velocity, samples, k):
     """Replace the velocity at sample k, and force and contact if they change there, by their values just after it.
 
@@ -711,7 +749,13 @@ def _march(gaps, weights, limit, spectrum, times, load, by_depth):
         np.zeros(1, np.int64), np.full(1, np.nan),
     )  # fmt: skip
     scratch = _Scratch(
-        np.zeros(1), np.ones(branches), np.zeros(branches), np.zeros(elements), np.zeros(elements), np.zeros(branches)
+        np.zeros(1),
+        np.ones(branches),
+        np.zeros(branches),
+        np.zeros(elements),
+        np.zeros(elements),
+        np.zeros(branches),
+        np.zeros(INTERVALS),
     )
     system = _System(row, spectrum, springs, scratch)
     samples = _Samples(

@@ -5,7 +5,7 @@ import fuzz_cases
 import pytest
 from file_cases import generators
 
-pytestmark = pytest.mark.long
+pytestmark = [pytest.mark.long, pytest.mark.filterwarnings("default")]
 
 
 @pytest.fixture(scope="session")

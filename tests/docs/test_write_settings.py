@@ -1,4 +1,4 @@
-"""The schema of the settings and the tables of config/README.md."""
+"""The schema of the settings and the tables of config/README.md, from viscorough_study/run/settings_model.py."""
 
 import write_settings
 

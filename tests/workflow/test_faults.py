@@ -116,6 +116,7 @@ def in_read_only(folder, command):
     return subprocess.run(command, cwd=folder, env=variables, capture_output=True, text=True, check=False)
 
 
+@pytest.mark.long
 def test_folder_that_cannot_be_written_is_reported_in_one_line(tmp_path):
     folder, line = copy_project(tmp_path / "copy"), [sys.executable, "-m", "snakemake", "--cores", "1", "--dry-run"]
     done = in_read_only(folder, line)

@@ -75,6 +75,7 @@ for folder in sys.argv[1:]:
 """
 
 
+@pytest.mark.long
 def test_copies_of_a_source_share_compiled_code_and_changes_are_noticed(tmp_path):
     def results(**changes):
         """Return the results of changed copies, which one new process computes."""

@@ -25,6 +25,7 @@ def close(line, expected):
     np.testing.assert_allclose(line, expected, rtol=1e-9)
 
 
+@pytest.mark.long
 def test_figures_are_whole_and_no_text_is_too_small(drawn, scaling):
     figures = drawn | {"no region": plot("conventions", without_region(scaling, 0.4), SHOWN)}
     assert [name for name, figure in figures.items() if not whole_on_page(figure)] == []

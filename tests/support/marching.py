@@ -14,9 +14,9 @@ def stepped(indenter, medium, times, **load):
     return _with_count(motion, indenter, pressure=pressure)
 
 
-def evented(indenter, medium, times, force, **options):
-    """Return the motion from contact event to contact event at these times, with `contact_count`."""
-    return _with_count(march(indenter, Load(times, force=force), medium, method="events", **options), indenter)
+def evented(indenter, viscosity, times, force):
+    """Return the motion in a Newtonian medium from contact event to contact event, with `contact_count`."""
+    return _with_count(march(indenter, Load(times, force=force), viscosity, method="events"), indenter)
 
 
 def _with_count(motion, indenter, **more):

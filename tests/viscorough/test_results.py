@@ -41,7 +41,7 @@ def results():
     for force in ([FORCE, FORCE], [FORCE, 0.1 * FORCE]):
         yield viscorough.march(DISC, viscorough.Load([0.0, 1.0], force=force), SOLID)
     held = viscorough.Load([0.0, 1.0], force=[FORCE, FORCE])
-    yield viscorough.march(DISC, held, SOLID, method="events")
+    yield viscorough.march(DISC, held, 1.0, method="events")
     yield viscorough.complete_contact(DISC)
     yield viscorough.audit(DISC)
     yield viscorough.estimate(0.7, 0.1, 1.0, 1.0, 1.0, [0.01, 0.1])

@@ -20,8 +20,8 @@ METHODS = ("events", "implicit")
     "--method",
     type=click.Choice(METHODS),
     required=True,
-    help="events: exact from one contact event to the next, while the contact grows; implicit: one contact problem "
-    "per time step, of second order, also if the contact recedes.",
+    help="events: exact from one contact event to the next, in a Newtonian medium; implicit: one contact problem per "
+    "time step, of second order, in every medium of springs and dashpots.",
 )
 @click.option("--force", type=options.QuantityOption("N"), help="Constant force F  [default: 1]")
 @click.option("--viscosity", type=options.QuantityOption("Pa s"), help="Shear viscosity  [default: 1]")

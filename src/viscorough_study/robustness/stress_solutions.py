@@ -21,6 +21,7 @@ from viscorough.contact.options import SolverOptions
 from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.step_control import FINEST_ACCURACY
 from viscorough.mdr import reduce
+from viscorough.media.creep_response import creep_response
 from viscorough.media.kinds import Newtonian
 from viscorough.media.load import Load
 from viscorough.surfaces.self_affine import self_affine_line
@@ -215,11 +216,12 @@ def _history(case, solution):
 
 def _motion_reference(case, solution):
     times, force = _history(case, solution)
-    if (np.diff(force) < 0).any():  # the contact recedes while the force falls
-        return _stepped(case, solution, REFERENCE_STEPS)
-    until = _last_fraction(case, solution)
     load = Load(times, force=force)
-    return march(case.indenter, load, case.medium, method="events", until_fraction=until).depth
+    if (np.diff(load.values) < 0).any():  # the contact recedes while the force falls
+        return _stepped(case, solution, REFERENCE_STEPS)
+    # A contact that grows has the same events in every medium: the creep response replaces the impulse ∫F dt/η.
+    events = march_events(case.indenter, until_fraction=_last_fraction(case, solution))
+    return events.depth_at(creep_response(case.medium.spectrum(load)[0], load))
 
 
 def _stepped(case, solution, number):

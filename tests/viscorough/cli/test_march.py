@@ -30,8 +30,8 @@ PULSE = "--medium medium.yaml --force-history pulse.csv"
 @pytest.mark.parametrize(
     ("motion", "method", "tolerance"),
     [
-        (f"--medium medium.yaml {CONSTANT}", "events", 1e-8),
-        (f"--viscosity 3 {CONSTANT}", "implicit", 1e-5),
+        (f"--viscosity 3 {CONSTANT}", "events", 1e-8),
+        (f"--medium medium.yaml {CONSTANT}", "implicit", 1e-2),
         (PULSE, "implicit", 5e-2),
     ],
 )
@@ -58,9 +58,8 @@ def test_march_shows_its_progress(monkeypatch):
 
 
 def test_march_continues_while_contact_recedes(complaint):
-    assert "the contact recedes; --method events allows contact that grows" in complaint(
-        f"{MARCH} --method events {PULSE}"
-    )
+    message = "--method events, a medium that is not Newtonian; allowed: a force on a Newtonian medium, or --method"
+    assert message in complaint(f"{MARCH} --method events {PULSE}")
     assert run(f"{MARCH} --method implicit {PULSE}") == 0
     content = netcdf.read("march.nc")
     assert content.attributes["receding_from"] == 2.0

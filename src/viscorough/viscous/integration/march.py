@@ -1,12 +1,16 @@
 """Direct integration of the viscoelastic contact problem in time, by steps or from contact event to contact event."""
 
+import numpy as np
+
+from viscorough.basics.argument_names import argument
+from viscorough.basics.errors import ConvergenceError
 from viscorough.basics.types import Progress
 from viscorough.media.load import Load
 from viscorough.media.medium import Medium
 from viscorough.results.motion import Motion
 from viscorough.surfaces.indenter import Indenter
-from viscorough.viscous.integration.internal_variable_events import integrate_events
-from viscorough.viscous.integration.internal_variables import integrate_steps
+from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.internal_variables import check_overflow, checked_input, integrate_steps
 
 METHODS = ("implicit", "events")
 
@@ -37,7 +41,7 @@ def march(
     method : {"implicit", "events"}, optional
         "implicit" makes one step from each sample of the load to the next, and solves a contact problem for the
         pressures at the end of each step. Its error is of second order in the length of the steps. "events" proceeds
-        from contact event to contact event and is exact. It needs a load of a force, and a contact that only grows.
+        from contact event to contact event and is exact. It needs a load of a force, and a Newtonian medium.
     until_fraction : float, optional
         Contact fraction up to which "events" follows the contact, in (0, 1]. The method needs 8 (until_fraction ·
         elements)² bytes of memory.
@@ -56,7 +60,7 @@ def march(
     Raises
     ------
     ValueError
-        For arguments out of range, and if the contact recedes with the method "events"; the message states the time.
+        For arguments out of range, and for the method "events" in other media and under a prescribed depth.
     ConvergenceError
         If a contact problem is not solved, or if more elements touch than `until_fraction` allows.
     MemoryError
@@ -73,5 +77,35 @@ def march(
     if method not in METHODS:
         raise ValueError(f"march: method {method!r}; allowed: {', '.join(METHODS)}")
     if method == "events":
-        return integrate_events(indenter, medium, load, until_fraction)
+        return _integrate_events(indenter, medium, load, until_fraction)
     return integrate_steps(indenter, medium, load, progress)[0]
+
+
+def _integrate_events(
+    indenter: Indenter, medium: Medium | float | str, load: Load, until_fraction: float = 1.0
+) -> Motion:
+    """Integrate the contact in a Newtonian medium under a force, exactly from contact event to contact event.
+
+    until_fraction : contact fraction up to which events are followed
+
+    Raises ConvergenceError if more elements touch than `until_fraction` allows.
+    """
+    relaxation, area, times, force = checked_input(indenter, medium, load)
+    if load.by_depth or not relaxation.viscosity or relaxation.relaxed_modulus:
+        found = "load of a depth" if load.by_depth else "a medium that is not Newtonian"
+        raise ValueError(
+            f"march: {argument('method', 'events')}, {found}; allowed: a force on a Newtonian medium, or "
+            f"{argument('method', 'implicit')}"
+        )
+    impulse = load.in_units_of(indenter.length_unit).integral / relaxation.viscosity
+    check_overflow(impulse)
+    events = march_events(indenter, until_fraction=until_fraction)
+    if impulse[-1] > events.impulse[-1] and events.contact_count[-1] < events.elements:
+        raise ConvergenceError(
+            f"march: {events.contact_count[-1]} elements touch before time {times[-1]:.6g}; a larger "
+            f"{argument('until_fraction')} is needed"
+        )
+    last_event = events.event_at(impulse)
+    fraction = np.where(impulse > 0, events.contact_count[last_event], 0) / events.elements
+    velocity = force / (relaxation.viscosity * events.resistance[last_event])
+    return Motion(times, events.depth_at(impulse), force * area, velocity, fraction, indenter.length_unit)

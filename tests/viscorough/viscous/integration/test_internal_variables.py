@@ -1,18 +1,17 @@
 """Direct integration with internal variables, against closed forms and the correspondence, which it never uses."""
 
-import re
-
 import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from support.contract import refused
+from support.growing_contact import growing_contact
 from support.marching import evented, stepped
 from support.media import SPRINGS_AND_DASHPOTS as MEDIA
-from viscorough import Indenter, Load, indent, kinetics, reference, self_affine_disc
+from viscorough import Indenter, Load, indent, kinetics, march, reference, self_affine_disc
 from viscorough.basics.errors import ConvergenceError
-from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
+from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Prony, Springpot
 
 DISC = Indenter(self_affine_disc(0.7, 65, seed=3).heights, 0.01, 0.02)
 SPRINGY = ["maxwell", "solid", "prony"]
@@ -37,59 +36,24 @@ def test_events_under_a_ramp_a_step_and_a_hold(curve, name):
     medium = MEDIA[name]
     times, shape = np.array([0, 0.3, 0.3, 1.0, END]), np.array([0.3, 0.5, 0.6, 0.6, 0.9])
     force = largest_force(curve, medium) * shape
-    result = evented(DISC, medium, times, force=force, until_fraction=0.1)
+    depth, count = growing_contact(DISC, medium, times, force, until_fraction=0.1)
     expected = kinetics(curve, Load(times, force=force), medium)
-    np.testing.assert_allclose(result.depth, expected.depth, rtol=1e-10, atol=0)
-    np.testing.assert_array_equal(result.contact_count[1:], np.searchsorted(curve.depth, result.depth[1:]))
-    assert result.contact_count[-1] > 80
+    np.testing.assert_allclose(depth, expected.depth, rtol=1e-10, atol=0)
+    np.testing.assert_array_equal(count[1:], np.searchsorted(curve.depth, depth[1:]))
+    assert count[-1] > 80
 
 
-def test_events_end_when_contact_recedes(curve):
-    """In a Maxwell medium Z' = F'/G + F/η, which is zero at F = η |F'|/G."""
-    medium = MEDIA["maxwell"]
-    force = largest_force(curve, medium) * np.array([0.5, 0.1])
-    with refused(
-        "from time 0 on the contact recedes; method='events' allows contact that grows; use method='implicit'"
-    ):
-        evented(DISC, medium, [0.0, 1.0], force=force, until_fraction=0.1)
-    with refused("from time 1.5 on the contact recedes"):
-        evented(DISC, medium, [0.0, 4.0], force=4 * force[[0, 1]] * [1, 0] / force[0], until_fraction=0.1)
+def test_events_are_for_newtonian_media(curve):
+    load = Load([0.0, 1.0], force=[1.0, 1.0])
+    for medium in (MEDIA["maxwell"], MEDIA["kelvin-voigt"]):
+        with refused(
+            "method='events', a medium that is not Newtonian; allowed: a force on a Newtonian medium, or method="
+        ):
+            march(DISC, load, medium, method="events")
+    with refused("method='events', load of a depth; allowed: a force on a Newtonian medium, or method='implicit'"):
+        march(DISC, Load([0.0, 1.0], depth=[0.0, 1.0]), 1.0, method="events")
     with pytest.raises(ConvergenceError, match="4 elements touch before time 1"):
-        evented(DISC, medium, [0.0, 1.0], force=force[[0, 0]], until_fraction=1e-3)
-
-
-def test_events_find_contact_that_recedes_between_the_times():
-    """The depth at the last time is above the depth at the first time, but the contact has receded in between.
-
-    J' F₀ + J F' = 0 with J = (1 − 0.99 exp(−t/5)) holds at exp(t/5) = (0.198 F₀/|F'| + 0.99).
-    """
-    disc = self_affine_disc(0.7, 9, rms=0.05, seed=2)
-    medium, times, force = StandardLinearSolid(100, 1, 0.05), [0, 10], np.array([0.1, 0.003])
-    first = 5 * np.log(0.198 * force[0] / 0.0097 + 0.99)
-    with refused(f"from time {first:.6g} on the contact recedes"):
-        evented(disc, medium, times, force=force)
-    before = np.array([0.0, first * (1 - 1e-9)])
-    motion = evented(disc, medium, before, force=np.interp(before, times, force))
-    assert motion.contact_count[-1] > motion.contact_count[0]
-
-
-def test_events_recede_at_the_time_that_kinetics_reports():
-    """Forces and media are random. The contact recedes under most forces, sometimes between the times."""
-    random, disc = np.random.default_rng(4), self_affine_disc(0.7, 5, rms=1.0, seed=2)
-    curve, within = indent(disc), 0
-    for _ in range(60):
-        medium = Prony(random.choice([0.0, 1.0]), 10 ** random.uniform(-1, 1, 3), 10 ** random.uniform(-2, 2, 3))
-        times = np.append(0, np.cumsum(10 ** random.uniform(-1, 1, 4)))
-        force = 1e-3 * (1 + 0.05 * random.standard_normal(5) + np.array([0, 0.1, 0, 0, 0.1]))
-        reported = kinetics(curve, force, medium, times).receding_from
-        try:
-            evented(disc, medium, times, force=force)
-            found = np.nan
-        except ValueError as error:
-            found = float(re.search(r"from time (\S+) on", str(error))[1])
-        np.testing.assert_allclose(found, reported, rtol=1e-5)
-        within += np.isfinite(found) and abs(times - found).min() > 1e-3
-    assert within > 3
+        march(DISC, Load([0.0, 1.0], force=curve.force[[-1, -1]]), 1.0, method="events", until_fraction=1e-3)
 
 
 @pytest.mark.parametrize("decades", [3, 7])
@@ -98,8 +62,8 @@ def test_events_with_relaxation_times_many_decades_apart(curve, decades):
     for relaxed in (0.0, 1e-3, 1.0):
         medium = Prony(relaxed, [1.0, 3.0, 0.3, 1.0], 10.0 ** np.array([-decades, -1.0, 2.0, decades]))
         force = np.linspace(0.5, 1, 10) * 0.8 * curve.force[-1] / medium.creep_compliance(times[-1])
-        result = evented(DISC, medium, times, force=force, until_fraction=0.1)
-        np.testing.assert_allclose(result.depth, kinetics(curve, force, medium, times).depth, rtol=1e-10, atol=0)
+        depth, _ = growing_contact(DISC, medium, times, force, until_fraction=0.1)
+        np.testing.assert_allclose(depth, kinetics(curve, force, medium, times).depth, rtol=1e-10, atol=0)
 
 
 # ---- steps

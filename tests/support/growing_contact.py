@@ -24,66 +24,32 @@ in four steps:
    Matrix exponentials would be less accurate.
 4. The rates of the modes are λ_j = Σ_j², and κ_j = (U_j · √R s)²/G₀.
 
-The contact grows as long as Z grows. This module uses neither the correspondence with the elastic problem nor the creep
+This module uses neither the correspondence with the elastic problem nor the creep
 compliance of the medium, so that it is an independent check of both.
 """
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import lapack
 from scipy.special import exprel, hyp1f1
 
-from viscorough.basics.argument_names import argument
 from viscorough.basics.arrays import jumps_and_slopes
-from viscorough.basics.errors import ConvergenceError
-from viscorough.basics.types import Array, Integers
-from viscorough.media.load import Load
-from viscorough.media.medium import Medium
-from viscorough.results.motion import Motion
-from viscorough.surfaces.indenter import Indenter
 from viscorough.viscous.integration.events import march_events
-from viscorough.viscous.integration.first_decrease import ROUNDING, Terms, first_decrease, rate_at_samples
-from viscorough.viscous.integration.internal_variables import check_overflow, checked_input
-
-if TYPE_CHECKING:
-    from viscorough.media.spectra import RelaxationSpectrum
 
 
-def integrate_events(
-    indenter: Indenter, medium: Medium | float | str, load: Load, until_fraction: float = 1.0
-) -> Motion:
-    """Integrate a contact that grows under a force, exactly from contact event to contact event; see `march`.
+def growing_contact(indenter, medium, times, force, until_fraction):
+    """Return the depth and the number of elements in contact at each time, if the contact only grows.
 
-    until_fraction : contact fraction up to which events are followed. The method needs 8 (until_fraction · elements)²
-        bytes of memory
-
-    Raises ValueError if the contact recedes; the message states the time when this begins. Raises ConvergenceError if
-    more elements touch than `until_fraction` allows.
+    medium : medium of springs and dashpots
+    times, force : samples of the force, in consistent units
+    until_fraction : contact fraction that is not exceeded
     """
-    relaxation, area, times, force = checked_input(indenter, medium, load)
-    if load.by_depth:
-        raise ValueError("march: method events, load of a depth; allowed: a load of a force, or method implicit")
-    modes = _modes(relaxation)
-    motion, terms = _total_motion(modes, times, force)
-    check_overflow(motion)
-    steps_down = jumps_and_slopes(times, force)[0] < -ROUNDING * force
-    at_once = times[steps_down & (modes.instantaneous_compliance > 0)]
-    if np.isfinite(receding_from := first_decrease(times, terms, at_once.min(initial=np.inf))):
-        raise ValueError(
-            f"march: from time {receding_from:.6g} on the contact recedes; {argument('method', 'events')} allows "
-            f"contact that grows; use {argument('method', 'implicit')}"
-        )
+    motion = _total_motion(_modes(medium.relaxation), np.asarray(times), np.asarray(force))
     events = march_events(indenter, until_fraction=until_fraction)
-    if motion[-1] > events.impulse[-1] and events.contact_count[-1] < events.elements:
-        raise ConvergenceError(
-            f"march: {events.contact_count[-1]} elements touch before time {times[-1]:.6g}; a larger "
-            f"{argument('until_fraction')} is needed"
-        )
-    last_event = events.event_at(motion)
-    fraction = np.where(motion > 0, events.contact_count[last_event], 0) / events.elements
-    velocity = rate_at_samples(times, terms) / events.resistance[last_event]
-    return Motion(times, events.depth_at(motion), force * area, velocity, fraction, indenter.length_unit)
+    assert (np.diff(motion) >= 0).all()
+    assert motion[-1] <= events.impulse[-1]
+    return events.depth_at(motion), np.where(motion > 0, events.contact_count[events.event_at(motion)], 0)
 
 
 class _Modes(NamedTuple):
@@ -98,11 +64,11 @@ class _Modes(NamedTuple):
 
     instantaneous_compliance: float
     fluidity: float
-    weights: Array
-    rates: Array
+    weights: np.ndarray
+    rates: np.ndarray
 
 
-def _modes(relaxation: "RelaxationSpectrum") -> _Modes:
+def _modes(relaxation):
     """Return the coefficients of the equations of motion of a medium.
 
     The medium has either a parallel dashpot or Maxwell branches, and may have a parallel spring.
@@ -126,23 +92,18 @@ def _modes(relaxation: "RelaxationSpectrum") -> _Modes:
     order = np.argsort(-rates)
     scaled = np.sqrt(rates)[order]
     singular, left, _, scale, _, info = lapack.dgejsv(scaled[:, None] * basis[order], joba=2, jobu=0, jobv=0)
-    if info:
-        raise ConvergenceError("march: the modes of the medium were not found")
+    assert info == 0
     singular = singular * (scale[0] / scale[1])
     weights = (left[:, : singular.size].T @ (scaled * unit[order])) ** 2 / total
     return _Modes(1 / total, fluidity, weights, singular**2)
 
 
-def _total_motion(modes: _Modes, times: Array, force: Array) -> tuple[Array, Terms]:
-    """Return the total motion Z at the samples of the force, and a function for its rate Z' between the samples.
-
-    The force is linear between its samples. Z has the shape (times,). The function returns the terms of Z', see
-    first_decrease.Terms.
-    """
+def _total_motion(modes, times, force):
+    """Return the total motion Z at the samples of a force that is linear between them, shape (times,)."""
     instantaneous, fluidity, weights, rates = modes
     jumps, slopes = jumps_and_slopes(times, force)
-    motion, states = np.empty(times.size), np.empty((times.size, rates.size))
-    motion[0], states[0] = instantaneous * force[0], force[0]
+    motion, state = np.empty(times.size), np.full(rates.size, force[0])
+    motion[0] = instantaneous * force[0]
     for k, (length, slope) in enumerate(zip(np.diff(times), slopes, strict=True)):
         x = rates * length
         gain = length * exprel(-x)  # ∫exp(−λt) dt from 0 to length
@@ -152,18 +113,6 @@ def _total_motion(modes: _Modes, times: Array, force: Array) -> tuple[Array, Ter
             gains = np.where(x > 1, (length - gain) / rates, 0.5 * length**2 * hyp1f1(1, 3, -np.minimum(x, 1)))
         at_once = instantaneous * (force[k + 1] - force[k])
         flow = fluidity * length * 0.5 * (force[k] + force[k + 1])
-        motion[k + 1] = motion[k] + at_once + flow + weights @ (states[k] * gain + slope * gains)
-        states[k + 1] = states[k] * np.exp(-x) + slope * gain + jumps[k + 1]
-
-    def terms(interval: Integers, offset: Array, *, left: bool) -> tuple[Array, Array, Array]:
-        slope, x = slopes[interval], offset[:, None] * rates
-        decaying = weights * states[interval] * np.exp(-x)
-        growing = weights * slope[:, None] * offset[:, None] * exprel(-x)
-        steady, drift = instantaneous * slope + fluidity * force[interval], fluidity * slope * offset
-        size = abs(instantaneous * slope) + fluidity * force[interval] + abs(drift)
-        size += (abs(decaying) + abs(growing)).sum(axis=1)
-        rising = np.maximum(drift, 0) + (np.minimum(decaying, 0) + np.maximum(growing, 0)).sum(axis=1)
-        falling = np.minimum(drift, 0) + (np.maximum(decaying, 0) + np.minimum(growing, 0)).sum(axis=1)
-        return steady + rising, falling, size
-
-    return motion, terms
+        motion[k + 1] = motion[k] + at_once + flow + weights @ (state * gain + slope * gains)
+        state = state * np.exp(-x) + slope * gain + jumps[k + 1]
+    return motion

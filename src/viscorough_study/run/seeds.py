@@ -4,7 +4,8 @@ A seed consists of a root, the setting `seed`, and a spawn key. The first number
 stream; every part of the study has one stream. The other numbers are properties of a realization, such as its Hurst
 exponent, grid or combination, but never its position in a list. So the random numbers of a realization do not depend on
 other realizations, on their order, or on the number of cores. The numbers of the streams are part of every published
-result: do not change them, and give a new stream a new number.
+result: do not change them, and give a new stream a new number. The numbers 7 and 17 belonged to parts
+that are gone.
 
 Three parts have no stream. The bootstrap of the fits and the disc of the level-placement scenes use the root without a
 spawn key. The spawn key of a random indenter in the stability campaign is only the number of its test case
@@ -131,14 +132,6 @@ def law_disc_key(hurst, elements, realization):
     elements : elements across the disc
     """
     return _key(16, _millionths(hurst), elements, realization)
-
-
-def light_map_key(hurst, elements, number):
-    """Return the spawn key of a square map in the benchmark of light loads.
-
-    elements : elements across the map; number : number of the map
-    """
-    return _key(17, _millionths(hurst), elements, number)
 
 
 def one_surface_key(hurst, number):

@@ -103,6 +103,17 @@ def test_depth_histories_have_units(here, curve):
     np.testing.assert_allclose(values("kin.nc")["force"], kinetics(curve, load, medium).force, rtol=1e-12)
 
 
+def test_columns_of_a_history_are_chosen(here, curve, capsys):
+    (here / "many.csv").write_text("u,F one,F two,t\n0,9,0,0\n0,9,0.2,1\n")
+    line = f"{KINETICS} --force-history many.csv --viscosity 30 --columns"
+    assert run(f"{line} 'time=4,force=F two'") == 0
+    expected = kinetics(curve, Load([0, 1], force=[0, 0.2]), Newtonian(30.0))
+    np.testing.assert_array_equal(values("kin.nc")["depth"], expected.depth)
+    for columns in ("time=4,speed=2", "time=,force=2", "time=4,time=3"):
+        assert run(f"{line} {columns}") == 2
+        assert "is not like time=1,depth=3,force=2" in capsys.readouterr().err
+
+
 def test_output_holds_the_text_of_the_medium(here):
     text = "{kind: maxwell, shear_modulus: 2, viscosity: 5}"
     (here / "medium.yaml").write_text(text + "\n")

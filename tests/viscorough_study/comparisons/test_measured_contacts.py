@@ -5,8 +5,9 @@ import pytest
 
 from support.command_line import run
 from support.tables import read_table
+from viscorough.contact.loading_path import indent
 from viscorough.surfaces.self_affine import self_affine_disc
-from viscorough_study.comparisons.measured import CONTACTS, measured_contacts
+from viscorough_study.comparisons.measured import CONTACTS, measured_contacts, measured_motions
 
 SCAN = {"name": "ground_a", "group": "ground", "file": "a.npy", "digest": "", "spacing": [10.0], "unit": "um"}
 SCAN |= {"preparation": {"flip": True}, "forces": [1e-4, 1e-5], "young_modulus": 2e6, "poisson_ratio": 0.3}
@@ -35,6 +36,17 @@ def test_digest_changes_with_file_and_settings():
     digests = {measured_contacts([SCAN | change])["digest"][0] for change in ({}, {"forces": [1e-4]}, {"unit": "nm"})}
     np.save("a.npy", 2 * np.load("a.npy"))
     assert len(digests | {measured_contacts([SCAN])["digest"][0]}) == 4
+
+
+def test_motions_end_where_their_curve_ends():
+    """In a Newtonian medium F t/η is the impulse over the viscosity, which replaces F/G."""
+    curve = indent(self_affine_disc(0.6, 9, rms=0.5e-6, diameter=90e-6, seed=1, length_unit="m"))
+    media = [{"name": "fluid", "kind": "newtonian", "viscosity": 1e6}]
+    times = {"low": 1e-9, "high": 1e3, "per_decade": 10}
+    (motion,) = measured_motions(curve, [1e-4, 1e9], media=media, times=times)
+    end = curve.force[-1] * 1e6 / 1e-4
+    assert end / 10**0.1 < motion["time"].max() <= end
+    assert set(motion["force"]) == {1e-4}
 
 
 def test_scan_that_fails_has_a_row_with_its_reason():

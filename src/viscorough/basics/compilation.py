@@ -1,34 +1,105 @@
-"""Compile functions with numba, cache their code on disk, and defer interrupts while the compiler runs.
+"""Compile functions with numba, and keep the compiled code on disk.
 
-Compiled code is kept in the user's cache folder (~/.cache/viscorough), or in the folder that NUMBA_CACHE_DIR names. If
-a file of the cache is damaged, its function is compiled again. If no file can be written, every process compiles the
-functions again, and one line of the log states this. The cache serves only functions that are decorated with `njit` of
-this module; numba itself and the functions of other packages are not changed.
+numba stores the code of each function in a folder below the user's cache folder (~/.cache/viscorough), or below the
+folder that NUMBA_CACHE_DIR names. If no file can be written there, every process compiles the functions again, and one
+line of the log states this.
+
+Only the public interface of numba is used: options of its decorators, its configuration, and its events. The events
+serve to announce the compiler, to defer interrupts while it runs, and to let one process at a time store code.
 """
 
 import contextlib
+import fcntl
 import functools
 import gc
 import logging
-import pickle
+import os
 import sys
-import types
-import uuid
-from collections.abc import Callable, Iterator
+import tempfile
+import threading
+from collections.abc import Callable
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numba
-import numpy as np
-from numba.core import caching, config
-from numba.core.compiler import CompileResult
-from numba.core.dispatcher import Dispatcher
-from numba.core.serialize import dumps
-from numba.core.types import unliteral
-from numba.misc.appdirs import AppDirs
+from numba.core import config, event
+from numba.extending import register_jitable
 
 from viscorough.basics.interrupts import uninterrupted
+
+_PACKAGE = Path(__file__).parents[1]
+# Compiled code is kept on disk only if the disk has room for this many bytes, about the code of a command. Otherwise
+# numba would raise an error when it stores the code of a function.
+_ROOM = 2_000_000
+
+
+def njit(
+    function: Callable[..., Any] | None = None, *, inner: bool = False, fastmath: bool = False, counted: bool = True
+) -> Callable[..., Any]:
+    """Decorate a function so that numba compiles it for the types of its arguments and keeps the code on disk.
+
+    All compiled functions release the interpreter's lock, and divide by zero without an error, as numpy does. These
+    options are the same for all functions, because numba compiles its own functions, such as zeros, anew for each set
+    of options, and for each type of number. Functions therefore store results in arrays that the caller passes, and
+    allocate no scratch arrays: each kind of array would take 0.1 to 0.3 s to compile.
+
+    inner : True if other compiled functions call this function. Its code then becomes part of the code of these
+        functions, which halves the compile time of a short function. Called from Python, it runs without compilation
+    fastmath : True if the compiler may reorder sums and assume that numbers are finite
+    counted : False for an inner function that creates no array. Numba then does not count the references to the arrays
+        of its arguments, which would take most of the time of short functions with many arrays
+    """
+    if function is None:
+        return functools.partial(njit, inner=inner, fastmath=fastmath, counted=counted)
+    options: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": fastmath}
+    options["no_cfunc_wrapper"] = True  # no function is called from C
+    if inner:
+        return register_jitable(_nrt=counted, **options)(function)
+    folder = _folder()
+    if folder is None:
+        return numba.njit(function, **options)
+    users_folder = config.CACHE_DIR  # type: ignore[attr-defined]
+    config.CACHE_DIR = str(folder)  # type: ignore[attr-defined]  # numba reads it when it decorates a function
+    try:
+        return numba.njit(function, cache=True, **options)
+    finally:
+        config.CACHE_DIR = users_folder  # type: ignore[attr-defined]
+
+
+@functools.cache
+def _folder() -> Path | None:
+    """Return the folder for the code of these sources and this version of numba; None if it cannot be written.
+
+    numba compiles a function again if its own file has changed, but does not notice changes of the functions and
+    constants that it imports from other files. Therefore each state of the sources has a folder, whose name is a
+    digest of all files that contain the word njit. A module that defines constants or types of compiled functions
+    contains this word, too.
+    """
+    digest = sha256(numba.__version__.encode())
+    for path in sorted(_PACKAGE.rglob("*.py")):
+        source = path.read_bytes()
+        if b"njit" in source:
+            digest.update(source)
+    caches = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+    base = config.CACHE_DIR or Path(caches, "viscorough")  # type: ignore[attr-defined]
+    folder = Path(base, digest.hexdigest()[:16])
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder) as file:
+            file.write(bytes(_ROOM))
+    except OSError:
+        logging.warning(
+            "compiled code cannot be kept on disk, so every process compiles it again, which takes up to half a "
+            "minute; set NUMBA_CACHE_DIR to a folder that is writable and has room"
+        )
+        return None
+    return folder
+
+
+def _is_ours(compilation: event.Event) -> bool:
+    """Return True if a function of this package is compiled."""
+    return str(compilation.data["dispatcher"].py_func.__module__).startswith("viscorough.")
 
 
 @functools.cache  # so that the message appears only once per process
@@ -38,165 +109,63 @@ def _announce_compilation() -> None:
         print("viscorough: compiling once, which takes about 10 s", file=sys.stderr, flush=True)
 
 
-class _Cache(caching.NullCache):
-    """Cache of the compiled code of one function on disk, with one file for each combination of argument types.
+class _Compilation(event.Listener):
+    """Listener that announces the compiler, and lets one process at a time store compiled code.
 
-    The name of a file contains a digest of everything that determines the code. All copies of the same source therefore
-    share the files. If the function, or a function that it calls, is changed, the name of the file changes as well.
+    numba stores code after the end of a compilation, in two files: an index of the types of arguments, and the code. If
+    two processes stored code for different types at the same time, the index of one process could lead to the code of
+    the other. Therefore a file is locked from the end of a compilation until numba releases its own lock.
     """
 
-    def __init__(self, compiled: Any) -> None:
-        self._compiled = compiled
+    def __init__(self) -> None:
+        self._file: IO[str] | None = None
 
-    @property
-    def cache_path(self) -> str:
-        folder = config.CACHE_DIR  # type: ignore[attr-defined]
-        return folder or str(AppDirs("viscorough", appauthor=False).user_cache_dir)
-
-    @functools.cached_property
-    def _digest(self) -> str:
-        # The digest is computed at the first call of the function: all functions that it calls are defined by then.
-        content = sys.version_info[:2], numba.__version__, _content(self._compiled, ())
-        return sha256(repr(content).encode()).hexdigest()
-
-    def _file(self, argument_types: Any, processor: tuple[Any, ...]) -> Path:
-        function, key = self._compiled.py_func, repr((self._digest, argument_types, processor))
-        name = f"{function.__module__}.{function.__name__}-{sha256(key.encode()).hexdigest()[:32]}.pickle"
-        return Path(self.cache_path, name)
-
-    def load_overload(self, sig: Any, target_context: Any) -> Any:
-        target_context.refresh()
-        file = self._file(sig, target_context.codegen().magic_tuple())
-        try:
-            stored = file.read_bytes()
-        except OSError:  # usually the file does not exist yet
+    def on_start(self, event: event.Event) -> None:
+        if _is_ours(event):
             _announce_compilation()
-            return None
-        try:
-            with uninterrupted():
-                return CompileResult._rebuild(target_context, *pickle.loads(stored))
-        except Exception as error:  # a file that is incomplete, for example after a power failure, can raise any error
-            text = "compiled code of %s in %s is damaged (%s): it is compiled again"
-            logging.warning(text, self._compiled.py_func.__name__, file.parent, error)
-            with contextlib.suppress(OSError):
-                file.unlink()
-            return None
 
-    def save_overload(self, sig: Any, data: Any) -> None:
-        # Code that contains addresses of this process cannot be cached.
-        if data.lifted or data.library.has_dynamic_globals:
-            return
-        file = self._file(sig, data.codegen.magic_tuple())
-        temporary = file.with_name(f"{file.name}.{uuid.uuid4().hex}")
-        try:
-            file.parent.mkdir(parents=True, exist_ok=True)
-            try:
-                temporary.write_bytes(dumps(data._reduce()))
-                temporary.replace(file)
-            finally:
-                temporary.unlink(missing_ok=True)
-        except OSError:  # for example because the disk is full
-            _warn_cache_disabled()
+    def on_end(self, event: event.Event) -> None:
+        folder = _folder() if _is_ours(event) else None
+        if folder and not self._file:
+            with contextlib.suppress(OSError):  # for example if the file system has no locks
+                self._file = (folder / "lock").open("w")
+                fcntl.flock(self._file, fcntl.LOCK_EX)
+
+    def release(self) -> None:
+        """Release the lock, so that other processes can store code."""
+        if self._file:
+            self._file.close()
+        self._file = None
 
 
-def _content(value: Any, callers: tuple[Any, ...]) -> Any:
-    """Return everything that determines the compiled code of a function, as nested tuples.
+class _CompilerLock(event.Listener):
+    """Listener that defers interrupts (Ctrl-C) and garbage collection while numba loads, compiles or stores code.
 
-    value : function that `njit` decorates, or a value that such a function uses, such as an array or a module
-    callers : compiled functions through whose calls `value` was reached. If `value` is one of them (a recursive call),
-        only its name is returned
+    An interrupt during a callback of the compiler LLVM into Python would be lost, and an interrupt while numba prepares
+    its first compilation would make every later compilation fail. Garbage collection would take a tenth of the compile
+    time.
     """
-    if isinstance(value, Dispatcher):
-        function = value.py_func
-        if value in callers:
-            return function.__name__
-        names = {name for code in _codes(function.__code__) for name in code.co_names} & set(function.__globals__)
-        used = [(name, _content(function.__globals__[name], (*callers, value))) for name in sorted(names)]
-        enclosed = [_content(cell.cell_contents, (*callers, value)) for cell in function.__closure__ or ()]
-        options = sorted(value.targetoptions.items())
-        return options, [_instructions(code, function.__doc__) for code in _codes(function.__code__)], used, enclosed
-    if isinstance(value, np.ndarray):
-        return value.dtype.str, value.shape, value.tobytes()
-    if isinstance(value, types.ModuleType):
-        return value.__name__
-    if callable(value):  # a function or a class; only classes of named tuples have _fields
-        return getattr(value, "__module__", ""), getattr(value, "__qualname__", ""), getattr(value, "_fields", ())
-    return type(value).__name__, repr(value)
+
+    def __init__(self, compilation: _Compilation) -> None:
+        self._compilation, self._depth, self._afterwards = compilation, 0, contextlib.ExitStack()
+
+    def on_start(self, event: event.Event) -> None:
+        if threading.current_thread() is threading.main_thread():
+            if self._depth == 0:
+                self._afterwards.enter_context(uninterrupted())
+                if gc.isenabled():
+                    gc.disable()
+                    self._afterwards.callback(gc.enable)
+            self._depth += 1
+
+    def on_end(self, event: event.Event) -> None:
+        self._compilation.release()
+        if threading.current_thread() is threading.main_thread():
+            self._depth -= 1
+            if self._depth == 0:
+                self._afterwards.close()
 
 
-def _codes(code: types.CodeType) -> list[types.CodeType]:
-    """Return a code object and all code objects nested in it."""
-    return [code, *(each for const in code.co_consts if isinstance(const, types.CodeType) for each in _codes(const))]
-
-
-def _instructions(code: types.CodeType, docstring: str | None) -> tuple[Any, ...]:
-    """Return the instructions of a code object, with names and constants but without line numbers and docstring."""
-    constants = [each for each in code.co_consts if not isinstance(each, types.CodeType) and each != docstring]
-    return code.co_code, code.co_names, code.co_varnames, code.co_freevars, repr(constants)
-
-
-@functools.cache  # so that the warning appears only once per process
-def _warn_cache_disabled() -> None:
-    logging.warning(
-        "compiled code cannot be kept on disk, so every process compiles it again, which takes up to half a minute; "
-        "set NUMBA_CACHE_DIR to a folder that is writable and has room"
-    )
-
-
-def njit(
-    function: Callable[..., Any] | None = None, *, inner: bool = False, fastmath: bool = False, counted: bool = True
-) -> Callable[..., Any]:
-    """Decorate a function so that numba compiles it for the types of its arguments and caches the code on disk.
-
-    All compiled functions release the interpreter's lock, and divide by zero without an error, as numpy does. These
-    options are the same for all functions, because numba compiles its own functions, such as zeros, anew for each set
-    of options, and for each type of number. Functions therefore store results in arrays that the caller passes, and
-    allocate no scratch arrays: each kind of array would take 0.1 to 0.3 s to compile.
-
-    inner : True if only other compiled functions call this function. Its code then becomes part of the code of these
-        functions, and it is neither cached nor callable from Python. This saves half of the compile time of a short
-        function
-    fastmath : True if the compiler may reorder sums and assume that numbers are finite
-    counted : False for an inner function that creates no array. Numba then does not count the references to the arrays
-        of its arguments, which would take most of the time of short functions with many arrays
-    """
-    if function is None:
-        return functools.partial(njit, inner=inner, fastmath=fastmath, counted=counted)
-    options: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": fastmath}
-    options |= {"no_cfunc_wrapper": True, "no_cpython_wrapper": inner, "_nrt": counted}  # no function is called from C
-    compiled: Any = numba.njit(function, **options)
-    if compiled is function:  # numba compiles nothing if NUMBA_DISABLE_JIT is set
-        return function
-    if inner:
-
-        def refuse(*arguments: Any, **options: Any) -> Any:
-            raise TypeError(f"{function.__name__} can only be called by other compiled functions")
-
-        # An inner function has no wrapper, so a call of its compiled code from Python would crash. Therefore numba is
-        # not allowed to store this code, and a call from Python reaches `refuse`.
-        compiled._compile_for_args, compiled._insert = refuse, lambda *arguments, **options: None
-    else:
-        compiled._cache = _Cache(compiled)
-    compile_types = uninterrupted()(compiled.compile)
-
-    def compile_once(argument_types: Any) -> Any:
-        with _no_garbage_collection():
-            # `unliteral` replaces the type of a literal number, such as 3, by a general type, such as int64. Otherwise
-            # numba would compile the function again for each literal number in a call.
-            return compile_types(tuple(map(unliteral, argument_types)))
-
-    compiled.compile = compile_once
-    return compiled
-
-
-@contextlib.contextmanager
-def _no_garbage_collection() -> Iterator[None]:
-    """Pause Python's garbage collection within this context, because it would take a tenth of the compile time."""
-    if not gc.isenabled():  # already paused while numba compiles a function that calls this function
-        yield
-        return
-    gc.disable()
-    try:
-        yield
-    finally:
-        gc.enable()
+_compilation = _Compilation()
+event.register("numba:compile", _compilation)
+event.register("numba:compiler_lock", _CompilerLock(_compilation))

@@ -76,7 +76,8 @@ class Spectrum(NamedTuple):
     branches : matrix J_j λ_j/(r_b − λ_j), which converts remainders ρ_j to internal variables w_b, shape (elements,
         branches)
 
-    Both matrices are summed over their first index: whole rows, without gaps in memory, are added quickly.
+    Both matrices are summed over their first index: whole rows, without gaps in memory, are added quickly. Functions
+    that `njit` compiles take a spectrum as an argument.
     """
 
     viscosity: float

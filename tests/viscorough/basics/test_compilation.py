@@ -1,24 +1,33 @@
-"""Compiled functions of this package are protected, those of other packages are not affected."""
+"""Compiled code is stored safely, and the functions of other packages are not affected."""
 
+import ast
+import fcntl
 import os
+import shutil
 import signal
+from pathlib import Path
 
 import numba
+import numpy as np
 import pytest
-from numba.core import caching, event
+from numba.core import event
 
+import viscorough
 from support.command_line import python
+from viscorough.basics import compilation
 from viscorough.basics.compilation import njit
+from viscorough.contact.grid import kernels
+
+PACKAGE = Path(viscorough.__file__).parent
 
 
-def test_compiled_functions_of_other_packages_are_left_alone():
+def test_compiled_functions_of_other_packages_are_stored_elsewhere():
     def function(x):
         return x + 1
 
     ours, theirs = njit(function), numba.njit(function, cache=True)
-    for owned, original in ((ours, False), (theirs, True)):
-        assert (type(owned._cache) is caching.FunctionCache) == original
-        assert (getattr(owned.compile, "__func__", None) is numba.core.dispatcher.Dispatcher.compile) == original
+    assert ours.stats.cache_path.startswith(str(compilation._folder()))
+    assert not theirs.stats.cache_path.startswith(str(compilation._folder()))
 
 
 def test_functions_run_if_numba_is_disabled():
@@ -45,66 +54,81 @@ def test_unwritable_cache_is_reported_in_one_line(before, tmp_path):
     assert "set NUMBA_CACHE_DIR to a folder that is writable" in done.stderr
 
 
-KERNELS = {
-    "parts.py": """
-from viscorough.basics.compilation import njit
-FACTOR = 2
-@njit(inner=True)
-def scaled(x):
-    return FACTOR * x
-""",
-    "whole.py": """
-from parts import scaled
-from viscorough.basics.compilation import njit
-@njit
-def more(x):
-    return scaled(x) + 1
-""",
-}
-
-
-# Prints, for each folder, the result of its function and the number of files in the cache.
-RESULTS = """
-import os, sys
-for folder in sys.argv[1:]:
-    sys.path.insert(0, folder)
-    import whole
-    print(whole.more(3), len(os.listdir(os.environ["NUMBA_CACHE_DIR"])))
-    sys.path.remove(folder)
-    del sys.modules["whole"], sys.modules["parts"]
+# `first_decrease` calls the function `decay` of another file.
+DECREASE = """
+from viscorough.media.kinds import KelvinVoigt
+from viscorough.media.load import Load
+from viscorough.viscous.crossing import first_decrease
+load = Load([0, 1, 2], force=[0, 1, 0])
+print(first_decrease(KelvinVoigt(1.0, 1.0).spectrum(load)[0], load.time, load.force))
 """
 
 
 @pytest.mark.long
-def test_copies_of_a_source_share_compiled_code_and_changes_are_noticed(tmp_path):
-    def results(**changes):
-        """Return the results of changed copies, which one new process computes."""
-        for folder, change in changes.items():
-            (tmp_path / folder).mkdir()
-            for name, text in KERNELS.items():
-                (tmp_path / folder / name).write_text(text.replace(*change))
-        folders = [str(tmp_path / folder) for folder in changes]
-        done = python("-c", RESULTS, *folders, NUMBA_CACHE_DIR=str(tmp_path / "cache"))
-        return [tuple(map(int, line.split())) for line in done.stdout.splitlines()]
-
-    assert results(first=("", "")) == [(7, 1)]
-    changed = results(
-        copy=("", ""),
-        comment=("import njit", "import njit  # a decorator"),
-        constant=("FACTOR = 2", "FACTOR = 5"),
-        called=("FACTOR * x", "FACTOR - x"),
-        option=("(inner=True)", "(inner=True, fastmath=True)"),
-    )
-    assert changed == [(7, 1), (7, 1), (16, 2), (0, 3), (7, 4)]
+def test_changes_in_called_functions_of_other_files_are_noticed(tmp_path):
+    shutil.copytree(PACKAGE, tmp_path / "viscorough", ignore=shutil.ignore_patterns("__pycache__"))
+    called = tmp_path / "viscorough/media/creep_response.py"
+    environment = {"PYTHONPATH": str(tmp_path), "NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+    times = [float(python("-c", DECREASE, **environment).stdout)]
+    called.write_text(called.read_text().replace("_KEPT_FROM = 1.0", "_KEPT_FROM = 0.0").replace("(-x)", "(-0.5 * x)"))
+    times.append(float(python("-c", DECREASE, **environment).stdout))
+    assert times[0] != times[1]
 
 
-def test_inner_functions_are_refused_in_python_whether_compiled_or_not():
-    inner = njit(inner=True)(eval("lambda x: 2 * x"))
-    outer = numba.njit(lambda x: inner(x) + 1)
-    for _ in range(2):
-        with pytest.raises(TypeError, match="can only be called by other compiled functions"):
-            inner(3)
-        assert outer(3) == 7
+def test_digest_covers_constants_of_compiled_functions():
+    """The folder of compiled code depends on each file from which a compiled function imports a name."""
+    for path in PACKAGE.rglob("*.py"):
+        tree = ast.parse(path.read_text())
+        compiled = [
+            node
+            for node in tree.body
+            if isinstance(node, ast.FunctionDef) and any("njit" in ast.dump(each) for each in node.decorator_list)
+        ]
+        used = {name.id for node in compiled for name in ast.walk(node) if isinstance(name, ast.Name)}
+        for node in tree.body:
+            if isinstance(node, ast.ImportFrom) and node.module.startswith("viscorough."):
+                source = PACKAGE.joinpath(*node.module.split(".")[1:]).with_suffix(".py")
+                names = used & {each.asname or each.name for each in node.names}
+                assert not names or "njit" in source.read_text(), f"{path}: {names}, {source}"
+
+
+@pytest.fixture
+def empty_cache(tmp_path, monkeypatch):
+    """Let functions that are decorated during the test be stored in an empty folder; return the folder."""
+    monkeypatch.setattr("numba.core.config.CACHE_DIR", str(tmp_path))
+    compilation._folder.cache_clear()
+    yield compilation._folder()
+    compilation._folder.cache_clear()
+
+
+class TryLock(event.Listener):
+    """Record, at each event, whether another process could now store code."""
+
+    def __init__(self, folder):
+        self._path, self.could_store = folder / "lock", []
+
+    def on_start(self, event):
+        pass
+
+    def on_end(self, event):
+        with self._path.open("w") as file:
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                self.could_store.append(False)
+            else:
+                self.could_store.append(True)
+
+
+def test_one_process_at_a_time_stores_code(empty_cache):
+    """From the end of a compilation until numba has stored the code, other processes have to wait."""
+    function = njit(kernels.total.py_func)
+    compiled, stored = TryLock(empty_cache), TryLock(empty_cache)
+    with event.install_listener("numba:compile", compiled), event.install_listener("numba:compiler_lock", stored):
+        assert function(field=np.arange(3.0), places=np.arange(3)) == 3
+    assert list(empty_cache.glob("*/*.nbi"))
+    assert compiled.could_store[-1] is False
+    assert stored.could_store[-1] is True
 
 
 class Interrupt(event.Listener):
@@ -125,8 +149,7 @@ def interrupts_raise():
     signal.signal(signal.SIGINT, before)
 
 
-def test_interrupt_waits_for_the_compiler(interrupts_raise, tmp_path, monkeypatch):
-    monkeypatch.setattr("numba.core.config.CACHE_DIR", str(tmp_path))
+def test_interrupt_waits_for_the_compiler(interrupts_raise, empty_cache):
     function = njit(lambda x: x + 1)
     with pytest.raises(KeyboardInterrupt), event.install_listener("numba:compile", Interrupt()):
         function(1.0)
@@ -136,14 +159,6 @@ def test_interrupt_waits_for_the_compiler(interrupts_raise, tmp_path, monkeypatc
 
 
 def test_compilation_is_announced_on_terminals(tmp_path):
-    (tmp_path / "script.py").write_text(
-        "import sys\n"
-        "sys.stderr.isatty = lambda: True\n"
-        "from viscorough.basics.compilation import njit\n"
-        "@njit\ndef one(x):\n    return x + 1\n"
-        "@njit\ndef two(x):\n    return x + 2\n"
-        "assert one(1) + two(1) == 5\n"
-    )
+    terminal = "import sys; sys.stderr.isatty = lambda: True" + SPHERE
     for expected in ("viscorough: compiling once, which takes about 10 s\n", ""):
-        done = python(str(tmp_path / "script.py"), NUMBA_CACHE_DIR=str(tmp_path / "cache"))
-        assert done.stderr == expected
+        assert python("-c", terminal, NUMBA_CACHE_DIR=str(tmp_path)).stderr == expected

@@ -1,12 +1,10 @@
-"""Faults of files under the command line: damaged compiled code, folders and streams that cannot be written.
+"""Faults under the command line: folders and streams that cannot be written, interrupts.
 
 Full disks are tested together with the writing of files, in tests/viscorough/io/test_netcdf.py.
 """
 
 import contextlib
-import logging
 import os
-import runpy
 import shlex
 import shutil
 import signal
@@ -21,7 +19,7 @@ import pytest
 import viscorough
 from support.command_line import VISCOROUGH, run, sphere_heights
 from support.curves import random_curve
-from support.faults import DAMAGES, contents, no_privileges
+from support.faults import contents, no_privileges
 from viscorough.cli import files
 from viscorough.io import netcdf
 
@@ -36,26 +34,6 @@ def here(here):
     for name in ("curve.nc", "out.nc"):
         viscorough.save(random_curve(length_unit="1"), name)
     return here
-
-
-# ---- damaged compiled code
-
-
-def test_incomplete_compiled_code_is_compiled_again(here, caplog, monkeypatch):
-    monkeypatch.setattr("numba.core.config.CACHE_DIR", str(here / "cache"))
-    (here / "ours.py").write_text(
-        "from viscorough.basics.compilation import njit\n@njit\ndef double(x):\n    return 2 * x\n"
-    )
-    for damage in (None, DAMAGES["truncated"], DAMAGES["second half zeros"], lambda whole: b""):
-        if damage:
-            (file,) = here.glob("cache/*")
-            file.write_bytes(damage(file.read_bytes()))
-        for warned in (bool(damage), False):  # the code is compiled once and then kept
-            caplog.clear()
-            assert runpy.run_path("ours.py")["double"](2.0) == 4
-            messages = [record.getMessage() for record in caplog.records if record.levelno >= logging.WARNING]
-            assert len(messages) == warned
-            assert all("is damaged" in message and "compiled again" in message for message in messages)
 
 
 # ---- places that cannot be written

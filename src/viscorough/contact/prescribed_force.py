@@ -8,7 +8,7 @@ The search for the depth therefore needs few contacts:
 2. Without an estimate, compute contact events, the depths where the next elements touch, as long as few elements touch.
    If the force is reached between two events, the contact is exact.
 3. Otherwise guess the depth from a power law through the last contact. On a grid, the depth is then adjusted while the
-   contact is solved (grid.depth_adjustment).
+   contact is solved (grid.iteration).
 4. If the force is not met yet, bracket the force. The next depth lies between the nearest contacts below and above the
    force. It is found from the interpolated loading curve between these contacts, or from their tangents.
 5. Extrapolate the small remaining difference in force along the tangent.

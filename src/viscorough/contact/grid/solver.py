@@ -6,7 +6,7 @@ A solution has three steps:
    at the smaller depth, and all elements that are predicted to touch early in the step. Elements that are predicted to
    touch late are left out, because the growing contact bends the surface away from them further than predicted. (With
    the late elements, the guess would contain all elements of the solution, and further elements.)
-2. Solve for the pressure (module pressure_iteration).
+2. Solve for the pressure (module iteration).
 3. Solve for the tangent (module tangent).
 
 Symbols and reduced units are defined in contact.state.
@@ -19,10 +19,10 @@ import numpy as np
 from viscorough.basics.types import Array, Integers, Mask
 from viscorough.contact.border import BORDER
 from viscorough.contact.grid import kernels
+from viscorough.contact.grid.iteration import solve_pressure
 from viscorough.contact.grid.loops import field_to_fill
-from viscorough.contact.grid.pressure_iteration import PressureIteration, TrialContact
+from viscorough.contact.grid.state import GridWorkspace, TrialContact
 from viscorough.contact.grid.tangent import initial_tangent, solve_tangent
-from viscorough.contact.grid.workspace import GridWorkspace
 from viscorough.contact.halfspace.tiles import are_few, is_suitable, tiles_with
 from viscorough.contact.options import LATE, SolverOptions
 from viscorough.contact.state import (
@@ -154,7 +154,7 @@ class GridSolver:
         """
         grid, last = self._workspace, start if isinstance(start, GridContact) else None
         trial = self._predicted(start, depth) if isinstance(start, GridContact) else self._guessed(start, depth)
-        contact_set = PressureIteration(grid, trial, target).solve()
+        contact_set = solve_pressure(grid, trial, target)
         tangent, tangent_gap = initial_tangent(trial, last, contact_set, grid.inner, self._loops)
         solve_tangent(grid, contact_set, tangent, tangent_gap)
         solution = contact_set.inside, trial.pressure, trial.change, tangent, tangent_gap

@@ -10,9 +10,15 @@ import numpy as np
 
 from viscorough.basics.types import Array
 from viscorough.contact.grid import kernels
+from viscorough.contact.grid.iteration import (
+    begin_search,
+    conjugate_step,
+    next_direction,
+    precondition,
+    residual_energy,
+)
 from viscorough.contact.grid.loops import GridLoops, field_to_fill
-from viscorough.contact.grid.pressure_iteration import TrialContact
-from viscorough.contact.grid.workspace import GridWorkspace
+from viscorough.contact.grid.state import GridWorkspace, TrialContact
 from viscorough.contact.preconditioner import LEAST_EIGENVALUE
 from viscorough.contact.state import BoundedField, ContactSet, GridContact
 
@@ -122,21 +128,21 @@ def solve_tangent(grid: GridWorkspace, contact_set: ContactSet, tangent: Array, 
     """
     tolerance = min(_TANGENT_TOLERANCE, np.sqrt(grid.tolerance))
     accepted = max(_TANGENT_ROUNDING * grid.tolerance, grid.exact_rounding + grid.field_rounding)
-    search = grid.conjugate_gradients(contact_set)
+    search = begin_search(grid, contact_set)
     for _ in range(grid.options.max_iterations):
         largest = grid.gather(tangent_gap.values, contact_set)
-        residual = search.precondition(grid.residual)
+        precondition(grid, search)
         # If q solves K q = 1 only up to the residual e_q = K q − 1, the corrected sum Σq − qᵀ e_q has the error
         # e_qᵀ K⁻¹ e_q. With the preconditioner M ≈ K⁻¹, this is at most e_qᵀ M e_q / LEAST_EIGENVALUE.
         total = grid.loops.total(tangent, contact_set.places)
-        error = np.sqrt(residual.energy() / (LEAST_EIGENVALUE * total)) if total > 0 else np.inf
+        error = np.sqrt(residual_energy(grid, search) / (LEAST_EIGENVALUE * total)) if total > 0 else np.inf
         if error <= tolerance:
             if tangent_gap.rounding <= accepted:
                 return
             grid.recompute_gap(tangent, 1, tangent_gap)
-            search = grid.conjugate_gradients(contact_set)
+            search = begin_search(grid, contact_set)
             continue
-        direction = search.next_direction(residual)
+        next_direction(grid, search)
         tangent_gap.rounding += grid.step_rounding * largest + grid.field_rounding
-        direction.step(tangent, tangent_gap.values)
+        conjugate_step(grid, search, tangent, tangent_gap.values)
     raise grid.not_converged(contact_set, error, tolerance)

@@ -7,7 +7,7 @@ import pytest
 
 from viscorough import SolverOptions, contact_at, indent, self_affine_disc
 from viscorough.contact.border import BORDER
-from viscorough.contact.grid import conjugate_gradients, kernels, loops
+from viscorough.contact.grid import iteration, kernels, loops
 from viscorough.contact.grid.loops import GridLoops
 from viscorough.contact.parallel import BLOCK, run_blocks
 
@@ -66,7 +66,7 @@ def test_contacts_do_not_depend_on_the_division_into_blocks(tolerance, monkeypat
     disc, options = self_affine_disc(0.5, 65, seed=1), SolverOptions(dense_contacts=0, dense_interactions=0)
     given = {"depth": [0.2, 0.5, 1.0, 2.0], "tolerance": tolerance, "options": options}
     expected, expected_curve = contact_at(disc, **given), indent(disc, tolerance=tolerance)
-    for module in (conjugate_gradients, loops):
+    for module in (iteration, loops):
         monkeypatch.setattr(module, "BLOCK", 64)
     monkeypatch.setattr(GridLoops, "over", lambda self, array, function: run_blocks(function, array.size, 3, 64))
     contacts, curve = contact_at(disc, threads=3, **given), indent(disc, tolerance=tolerance, threads=3)

@@ -1,4 +1,4 @@
-"""Hold the operators and fields that all iterations on a grid share.
+"""Hold the operators and fields of a grid that all iterations share, and the state of an iteration.
 
 Symbols and reduced units are defined in contact.state. Fields are flat arrays with a border as wide as the
 preconditioner reaches, so elements at the edge need no special treatment.
@@ -10,6 +10,7 @@ tolerance, the gap is recomputed from the pressure, in double precision if the t
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
@@ -18,11 +19,9 @@ from numpy.typing import DTypeLike, NDArray
 
 from viscorough.basics.argument_names import argument
 from viscorough.basics.errors import ConvergenceError
-from viscorough.basics.types import Array, Mask
+from viscorough.basics.types import Array, Integers, Mask
 from viscorough.contact.border import BORDER
 from viscorough.contact.grid import kernels
-from viscorough.contact.grid.conjugate_gradients import ConjugateGradients
-from viscorough.contact.grid.load_redistribution import load_redistribution_stencil
 from viscorough.contact.grid.loops import GridLoops
 from viscorough.contact.halfspace.operator import Convolution, spectrum_of_grid
 from viscorough.contact.halfspace.tiles import TiledHalfspace
@@ -32,6 +31,88 @@ from viscorough.contact.state import BoundedField, ContactSet
 
 # Initial gap at points of the grid without an element: a number far above the largest depth, so that they never touch.
 _OUTSIDE = 1e30
+
+
+@dataclass
+class TrialContact:
+    """First guess of a contact, which an iteration changes in place until it is the solution.
+
+    pressure : P, flat field
+    change : change e − g of every gap since first contact, with a bound on its rounding error
+    inside : True for places in contact, flat field
+    depth : reduced depth u, which changes only if a force is given
+    """
+
+    pressure: Array
+    change: BoundedField
+    inside: Mask
+    depth: float
+
+
+@dataclass
+class Search:
+    """State of conjugate gradients on a contact set: the search direction d, and the results of the last step along d.
+
+    Each field names its owner, and the functions of module iteration that write it. The gap e on the contact set is in
+    `GridWorkspace.residual`; every iteration computes it first. For a tangent, replace e by e_q.
+
+    contact_set : ContactSet on which the other fields are defined. Written by `begin_search` and `_prepare_search`
+    direction : d, the flattened load array of the half-space operator. Written by `next_direction`; a release step
+        replaces d by the total change of pressure
+    preconditioned : z = M e, a flat field of the preconditioner, which overwrites it when it is applied again. Written
+        by `precondition`; `_adjust_depth` changes it for the new depth
+    deflection : K d, the flattened result array of the half-space operator, which overwrites it when it is applied
+        again; None if no step along d was taken. Written by both kinds of step, reset by `next_direction`
+    released : indices in `direction` of the elements that the last step removed from the contact set. Written by
+        `_take_release_step`, reset by `next_direction`
+    largest_factor : largest magnitude of the next conjugacy factor. Written by `_take_release_step`, reset by
+        `next_direction`
+    """
+
+    contact_set: ContactSet
+    direction: Array
+    preconditioned: Array = field(default_factory=lambda: np.empty(0, np.float32))
+    deflection: Array | None = None
+    released: Integers = field(default_factory=lambda: np.empty(0, dtype=int))
+    largest_factor: float = np.inf
+
+
+@dataclass
+class PressureState:
+    """State of the iteration for the pressure of a contact.
+
+    Each field names the functions of module iteration that write it.
+
+    trial : TrialContact. Both kinds of step write the pressure and the change of the gap; `_adjust_depth` writes the
+        depth and the change of the gap; `_take_release_step`, `_exclude_unloaded` and `_add_penetrating_elements` write
+        the field `inside`
+    contact_set : ContactSet of the trial. Written by `_measure`
+    has_tension : True if any pressure is negative. Written by both kinds of step
+    ones : flat field of ones, to which the preconditioner is applied; empty if no force is given. Never changed
+    stiffness : Σq, with q = dP/du. Written by `_prepare_search`
+    response : estimate M 1 of q on the contact set; empty if no force is given. Written by `_prepare_search`
+    set_changed : True if `trial.inside` has changed since `contact_set` was made. Written before a step, and whenever
+        elements join the set
+    releases : number of release steps so far. Written by `_take_release_step`
+    search : Search; None before the first iteration, and if the load array of the operator was overwritten. Written by
+        `_prepare_search` and `_try_to_finish`
+    limit : largest allowed |e|. Written by `_measure`, and by `_adjust_depth` for the new depth
+    largest : largest |e| on the contact set. Written by `_measure`
+    close_enough : |e| below which the iteration may end. Written by `_measure`
+    """
+
+    trial: TrialContact
+    contact_set: ContactSet
+    has_tension: bool
+    ones: Array
+    stiffness: float
+    response: Array = field(default_factory=lambda: np.empty(0, np.float32))
+    set_changed: bool = False
+    releases: int = 0
+    search: Search | None = None
+    limit: float = 0.0
+    largest: float = 0.0
+    close_enough: float = 0.0
 
 
 class GridWorkspace:
@@ -45,8 +126,11 @@ class GridWorkspace:
     tiles : True for tiles with elements that can touch (see `halfspace.tiles.tiles_with`). The operator then computes
         deflections only in these tiles. None: it computes deflections on the whole grid
 
-    tolerance, options : the arguments of the same names
+    tolerance, options, aspect : the arguments of the same names
     loops : GridLoops that run the loops over the grid
+    halfspace : half-space operator K of the iterations. Its load array holds the search direction, so only one
+        iteration can use the grid at a time
+    preconditioner : Preconditioner M
     width : length of a row of flat fields
     inner : slice of flat fields that leaves out the border rows at both ends. This saves work on a narrow strip, where
         most rows are border rows
@@ -68,7 +152,7 @@ class GridWorkspace:
         threads: int = 1,
         tiles: Mask | None = None,
     ) -> None:
-        self.tolerance, self.options, self.loops = tolerance, options, GridLoops(threads)
+        self.tolerance, self.options, self.aspect, self.loops = tolerance, options, aspect, GridLoops(threads)
         rows, columns = shape
         make_operator: Callable[[DTypeLike], Convolution | TiledHalfspace]
         if tiles is None:
@@ -76,12 +160,12 @@ class GridWorkspace:
             make_operator = partial(Convolution, shape, spectrum, threads=threads)
         else:
             make_operator = partial(TiledHalfspace, rows, columns, tiles, aspect=aspect, threads=threads)
-        self._halfspace = make_operator(np.dtype(options.precision))
+        self.halfspace = make_operator(np.dtype(options.precision))
         is_exact = tolerance < options.exact_gap_below
-        self._exact = make_operator(np.float64) if is_exact else self._halfspace
+        self._exact = make_operator(np.float64) if is_exact else self.halfspace
         self.step_rounding, self.exact_rounding = (
             options.operator_rounding * np.finfo(halfspace.load.dtype).eps + halfspace.accuracy
-            for halfspace in (self._halfspace, self._exact)
+            for halfspace in (self.halfspace, self._exact)
         )
         self.precision = self._exact.load.dtype.type
         # A step of the iteration rounds e − g and the pressure. Both errors are relative to the depth, because neither
@@ -93,24 +177,16 @@ class GridWorkspace:
         self.initial_gap = np.empty((rows + 2 * BORDER) * self.width, dtype=self.precision)
         self.loops.fill(self.initial_gap, _OUTSIDE)
         self.residual = np.zeros(self.initial_gap.size, dtype=np.float32)
-        self._stencil = load_redistribution_stencil(aspect)
-        self._preconditioner = Preconditioner(rows + 2 * BORDER, self.width, aspect=aspect, threads=threads)
+        self.preconditioner = Preconditioner(rows + 2 * BORDER, self.width, aspect=aspect, threads=threads)
 
     @property
     def operator_applications(self) -> int:
         """Return the number of applications of the half-space operator so far."""
-        return sum(halfspace.count for halfspace in {self._halfspace, self._exact})
+        return sum(halfspace.count for halfspace in {self.halfspace, self._exact})
 
     def contact_set(self, inside: Mask) -> ContactSet:
         """Return the ContactSet of the elements for which the flat field `inside` is True."""
-        return ContactSet(inside, *self.loops.contact_places(inside, self.width, self._halfspace.load.shape[1]))
-
-    def conjugate_gradients(self, contact_set: ContactSet) -> ConjugateGradients:
-        """Begin conjugate gradients on a contact set.
-
-        The returned object becomes invalid when the half-space operator is applied to another load.
-        """
-        return ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._stencil, self.loops)
+        return ContactSet(inside, *self.loops.contact_places(inside, self.width, self.halfspace.load.shape[1]))
 
     def gather(self, field: Array, contact_set: ContactSet) -> float:
         """Copy a flat field on a contact set to `residual`; return the largest magnitude of the copied values."""

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from support.influence import influence_matrix
-from viscorough.contact.grid.load_redistribution import load_redistribution_stencil
+from viscorough.contact.grid.iteration import load_redistribution_stencil
 
 
 @pytest.mark.parametrize("aspect", [1.0, 3.0])

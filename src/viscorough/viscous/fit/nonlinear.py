@@ -4,8 +4,8 @@ The unknowns are parameters of a medium, and offset and drift of the depth as fa
 determine the medium, and the medium predicts the record (viscous.fit.records).
 
 - `fit_elements` fits a medium of springs and dashpots with given times and unknown amounts x ≥ 0. If the prediction is
-  linear in the unknowns, one non-negative least-squares fit gives the best medium. Otherwise such a fit to the tangent
-  of the prediction shows which few of the amounts are positive, and `scipy.optimize.least_squares` finds these.
+  linear in the unknowns, one non-negative least-squares fit gives the best medium. Otherwise the amounts take
+  steps towards such a fit to the tangent of the prediction, which are shortened until the sum of squares decreases.
 - `with_free_times` also fits the times of the elements that are present.
 - `fit_springpot` fits the two parameters of a springpot.
 """
@@ -21,10 +21,12 @@ from viscorough.viscous.fit.linear import non_negative
 from viscorough.viscous.fit.records import Record, Tangent
 
 # Largest number of fits to tangents. They end earlier if the sum of squares would decrease by less than the share
-# _STALLED, or if the root mean square of the residuals is below the share _EXACT of the largest value.
-_ROUNDS, _STALLED, _EXACT = 8, 1e-3, 1e-13
-# The best fit to a tangent is accepted if the sum of squares exceeds its value for the tangent by at most this share.
-_LINEAR = 1e-3
+# _STALLED, if it decreases by less than the share _LEAST_GAIN, or if the root mean square of the residuals is below the
+# share _EXACT of the largest value.
+_ROUNDS, _STALLED, _LEAST_GAIN, _EXACT = 60, 1e-3, 1e-6, 1e-13
+# A step towards the best fit to a tangent is accepted if the sum of squares decreases by the share _SUFFICIENT of the
+# decrease that the tangent predicts. Otherwise it is shortened to the share _SHORTER, up to _SHARES times.
+_SUFFICIENT, _SHORTER, _SHARES = 0.25, 0.4, 8
 # Largest number of steps of a nonlinear fit. It ends earlier if the sum of squares or the unknowns change by less than
 # the share _CLOSE in a step. Derivatives that are not known are difference quotients with steps of the share _STEP.
 _EVALUATIONS, _CLOSE, _STEP = 15, 1e-9, 1e-6
@@ -87,13 +89,10 @@ def fit_elements(record: Record, times: Array, start: tuple[Array, Array] | None
         exact = record.measured.size * (_EXACT * np.abs(record.measured).max()) ** 2
         if fit.squares <= exact or expected > (1 - _STALLED) * fit.squares:
             break
-        reached = _squares(record, times, amounts, shift)
-        if not reached <= (1 + _LINEAR) * expected + exact:
-            amounts, shift = _nonlinear(record, fit, amounts, shift, reached)
-            reached = _squares(record, times, amounts, shift)
-        if not reached < fit.squares:
+        better = _towards(record, fit, amounts, shift, expected)
+        if better is None:
             break
-        fit = _at(record, times, amounts, shift)
+        fit = _at(record, times, *better)
     return fit
 
 
@@ -171,37 +170,26 @@ def fit_springpot(record: Record, start: Springpot, shift: Array) -> tuple[Sprin
     return *parameters(found), residual(found) * size
 
 
-def _nonlinear(record: Record, fit: ElementFit, amounts: Array, shift: Array, reached: float) -> tuple[Array, Array]:
-    """Return amounts, offset and drift that fit a record best, where only amounts that are positive may change.
+def _towards(
+    record: Record, fit: ElementFit, amounts: Array, shift: Array, expected: float
+) -> tuple[Array, Array] | None:
+    """Return the amounts, and offset and drift, of a step that reduces the sum of squares; None if no step does.
+
+    The step leads to the best fit to the tangent, or a share of the way, since the prediction is not linear.
 
     fit : fit before
-    amounts, shift, reached : values that fit the tangent best, and their sum of squares; the amounts that are positive
-        in them or in `fit` may change
+    amounts, shift, expected : values that fit the tangent best, and the sum of squares that the tangent predicts
     """
-    leading = record.leading
-    used = (amounts > 0) | (fit.amounts > 0)
-    used[:leading] = True
-    times, count = fit.times[used[leading:]], int(np.count_nonzero(used))
-    size = np.abs(record.measured).max()
-    lengths = np.abs(fit.tangent.columns[:, used]).max(axis=0)
-    scales = np.append(size / np.where(lengths > 0, lengths, size), record.shift_scales)
-
-    def residual(unknowns: Array) -> Array:
-        values = unknowns * scales
-        return (record.predicted(times, values[:count], values[count:]) - record.measured) / size
-
-    def derivatives(unknowns: Array) -> Array:
-        values = unknowns * scales
-        tangent = record.tangent(times, values[:count], values[count:])
-        return np.column_stack([tangent.columns, tangent.signed]) * scales / size
-
-    start = (amounts, shift) if reached < fit.squares else (fit.amounts, fit.shift)
-    first = np.append(start[0][used], start[1]) / scales
-    low = np.append(np.zeros(count), np.full(shift.size, -np.inf))
-    values = _solution(residual, first, (low, np.full(low.size, np.inf)), derivatives) * scales
-    best = np.zeros(amounts.size)
-    best[used] = values[:count]
-    return best, values[count:]
+    best, least, share = None, (1 - _LEAST_GAIN) * fit.squares, 1.0
+    for _ in range(_SHARES):
+        values = fit.amounts + share * (amounts - fit.amounts), fit.shift + share * (shift - fit.shift)
+        squares = _squares(record, fit.times, *values)
+        if squares < least:
+            best, least = values, squares
+        if squares <= fit.squares - _SUFFICIENT * share * (fit.squares - expected):
+            break
+        share *= _SHORTER
+    return best
 
 
 def _solution(

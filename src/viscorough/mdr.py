@@ -59,7 +59,7 @@ def reduce(line: Indenter, *, until_fraction: float = 1.0, until_force: float | 
     line : Indenter
         Indenter with one-dimensional heights.
     until_fraction : float, optional
-        Contact fraction of the last level (computed point of the curve), in (0, 1].
+        Contact fraction of the last level, in (0, 1].
     until_force : float, optional
         Force F/G of the last level [length²]. If the whole line is in contact at a smaller force, a level at exactly
         `until_force` is added, unless the curve ends earlier at `until_fraction`.

@@ -3,9 +3,9 @@
 A map contains no roughness between its points. The loading curve would change if the spacing of the map were halved
 again and again. This change is estimated from the change of the curve when the spacing is doubled. In a fluid of
 viscosity η the velocity at the force F is v = F/(η k/G), with the stiffness k and the shear modulus G. At equal forces,
-the ratio of two velocities therefore follows from the stiffnesses. The errors at a level (a computed point of the
-curve) are estimated as follows. The index 2 denotes the curve of every second point, and ⟨·⟩ the mean over all forces
-within half a decade of the level, uniform in ln F:
+the ratio of two velocities therefore follows from the stiffnesses. The errors at a level are estimated as follows. The
+index 2 denotes the curve of every second point, and ⟨·⟩ the mean over all forces within half a decade of the level,
+uniform in ln F:
 
     error of the velocity:          s √⟨ln²(v/v₂)⟩     v and v₂ at equal force; s = SAFETY_FACTOR
     error of the force:             r √⟨(1 − F₂/F)²⟩   F and F₂ at equal depth; r = FORCE_SAFETY_FACTOR
@@ -37,8 +37,8 @@ FORCE_SAFETY_FACTOR = 3.0
 # Two curves are compared at this number of points per decade of force. Many points are needed, because the stiffness
 # jumps whenever an element touches.
 _POINTS_PER_DECADE = 50
-# The error at a level (a computed point of the curve) is a mean over all forces within half a decade of the force F of
-# the level. This constant is half a decade in ln F.
+# The error at a level is a mean over all forces within half a decade of the force F of the level. This constant is half
+# a decade in ln F.
 _HALF_WINDOW = 0.5 * np.log(10)
 # Means over a whole curve begin at this reduced force X = F/(4GhL), where h is the rms height and L the diameter of the
 # map. Smaller forces are carried by a few summits, which coarse grids cannot represent.

@@ -75,7 +75,7 @@ _BEYOND_COARSER = 1.7
 _RATIOS_TO_THE_END = 1.0, 1.1, 1.3, 1.5, *[2.0] * 10
 # Work for contacts of the full map, relative to its whole curve. It only affects the reported progress.
 _SHARE_OF_CONTACTS = 0.2
-# Names of the quantities of a LoadingCurve that have a value for each level (computed point).
+# Names of the quantities of a LoadingCurve that have a value for each level.
 _LEVELS = "depth", "force", "stiffness", "contact_count", "residual", "grid_error", "force_grid_error", "area_change"
 # Relative difference of two forces that may be due to rounding.
 _ROUNDING = 1e-9

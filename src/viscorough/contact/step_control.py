@@ -1,10 +1,10 @@
 """Choose the depths of the levels of a loading curve: few levels, yet close enough for accurate interpolation.
 
-A level is a computed point of the curve; the curve is interpolated between the levels.
-The curve is convex, so between two levels it lies in the triangle formed by the chord and the two tangents. This gives
-an upper bound on the error of the interpolated depth in every interval, for every surface. On rough surfaces the error
-is far smaller than the bound. A bound of about three times the allowed error is therefore accepted, if the error is
-also predicted from the depths where the elements touch, and the predicted error is small enough.
+The curve is interpolated between the levels. The curve is convex, so between two levels it lies in the triangle formed
+by the chord and the two tangents. This gives an upper bound on the error of the interpolated depth in every interval,
+for every surface. On rough surfaces the error is far smaller than the bound. A bound of about three times the allowed
+error is therefore accepted, if the error is also predicted from the depths where the elements touch, and the predicted
+error is small enough.
 """
 
 from dataclasses import dataclass

@@ -20,11 +20,11 @@ COMMENT = (
 _NEEDED = "a loading curve of viscorough indent is needed"
 # Ignore relative differences up to this size, since another program may have stored the numbers in single precision.
 _ROUNDING = 1e-6
-# From one level (computed contact) to the next, contact count and stiffness may decrease by at most this multiple of
-# the tolerance. Errors of the solver can cause decreases between close levels, up to about the tolerance.
+# From one level to the next, contact count and stiffness may decrease by at most this multiple of the tolerance. Errors
+# of the solver can cause decreases between close levels, up to about the tolerance.
 _LOST = 10
-# Variables of a curve with one value for each level (computed contact): {name: (long_name, n)}. The unit of a variable
-# is the unit of length to the power n.
+# Variables of a curve with one value for each level: {name: (long_name, n)}. The unit of a variable is the unit of
+# length to the power n.
 OVER_LEVELS: dict[str, tuple[str, int]] = {
     "depth": ("depth of indentation u", 1),
     "force": ("normal force over shear modulus F/G", 2),
@@ -175,8 +175,8 @@ def _converted(name: str, value: Any, kind: type, least: float = 0) -> Any:
 def stack_curves(curves: Sequence[LoadingCurve]) -> Content:
     """Combine loading curves into the content of one NetCDF file, with the dimensions (realization, level).
 
-    A realization is one curve, and a level is one computed contact. Curves with fewer levels are filled up with nan.
-    The variables `levels` (number of levels) and PER_CURVE have one value for each curve. Grid errors are left out.
+    A realization is one curve. Curves with fewer levels are filled up with nan. The variables `levels` (number of
+    levels) and PER_CURVE have one value for each curve. Grid errors are left out.
 
     Raises ValueError for an empty list, and for curves in different units of length.
     """

@@ -32,9 +32,9 @@ _GRID_QUANTITIES = ("grid_error", "force_grid_error", "area_change")
 class LoadingCurve(ReadOnlyArrays):
     """Depth, force and tangent stiffness of a rigid indenter pressed into an elastic half-space, at successive levels.
 
-    A level is one computed contact. Arrays are copied and read-only. If the shear modulus G is replaced by a viscosity
-    η, and the force F by ∫F dt, the same curve describes an indenter in a linearly viscous half-space (Radok; paper,
-    Sec. III).
+    A level is a computed point of the curve: one contact. Arrays are copied and read-only. If the shear modulus G is
+    replaced by a viscosity η, and the force F by ∫F dt, the same curve describes an indenter in a linearly viscous
+    half-space (Radok; paper, Sec. III).
 
     Attributes
     ----------

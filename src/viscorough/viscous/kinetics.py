@@ -46,14 +46,14 @@ from viscorough.viscous.row import ROUNDING, RowOfSprings, row_of_springs
 # Time that counts as infinite: the end of the creep is searched for only before this time.
 _LATEST = 1e300
 # Number of default output times under a constant force. They begin when the creep response F J(t) reaches the first
-# level (computed point) of the curve, and end when it reaches the last level. If the response is above the first level
-# from time 0 on, or always below the last level, the times begin or end when the response differs from its first or
-# last value by the share _EARLY of its range.
+# level of the curve, and end when it reaches the last level. If the response is above the first level from time 0 on,
+# or always below the last level, the times begin or end when the response differs from its first or last value by the
+# share _EARLY of its range.
 _SPREAD, _EARLY = 100, 1e-3
 # A medium whose springs and dashpots miss its compliance by more than this share gives a warning.
 _REPORTED_MISFIT = 0.01
-# A motion that depends on the unknown curve before its first level (computed point) gives a warning if the force at
-# this level is more than this share of the largest elastic force.
+# A motion that depends on the unknown curve before its first level gives a warning if the force at this level is more
+# than this share of the largest elastic force.
 _UNKNOWN_SHARE = 1e-2
 
 
@@ -90,8 +90,8 @@ def kinetics(
     times : array_like, optional
         Increasing times of the output, in s or with a unit; 0 or later for a constant load. The default for a Load is
         the times of its samples. The default for a constant force is a hundred times with equal ratios, while the creep
-        goes from the first to the last level (computed point) of the curve, or until it has almost ended. If the medium
-        responds elastically at time 0, time 0 precedes them.
+        goes from the first to the last level of the curve, or until it has almost ended. If the medium responds
+        elastically at time 0, time 0 precedes them.
 
     Returns
     -------
@@ -270,9 +270,9 @@ def _constant(curve: LoadingCurve, medium: Medium, name: str, value: float, time
 def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
     """Return the default output times under a constant force, which have equal ratios.
 
-    The first time is about the time when the creep reaches the first level (computed point) of the curve. The last is
-    about the time when the creep reaches the last level or has almost ended. If the medium responds elastically at time
-    0, time 0 precedes them.
+    The first time is about the time when the creep reaches the first level of the curve. The last is about the time
+    when the creep reaches the last level or has almost ended. If the medium responds elastically at time 0, time 0
+    precedes them.
     """
     earliest, limit = medium.first_time, min(medium.last_time, _LATEST)
     with np.errstate(over="ignore"):
@@ -347,7 +347,7 @@ def _warn_of_the_misfit(medium: Medium, misfit: float) -> None:
 
 
 def _warn_of_the_beginning(curve: LoadingCurve, row: RowOfSprings, load: Load, moved: RowMotion) -> None:
-    """Warn if the motion depends on the curve before its first level (computed point).
+    """Warn if the motion depends on the curve before its first level.
 
     There the curve is taken to be a power law.
     """

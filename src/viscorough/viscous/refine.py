@@ -25,7 +25,7 @@ from viscorough.viscous.row import ROUNDING, RowOfSprings
 class RefinedMotion(NamedTuple):
     """Motion of an indenter at the samples of a load, in consistent units; arrays of shape (samples,).
 
-    Values that depend on the unknown curve before its first level (computed point) are nan.
+    Values that depend on the unknown curve before its first level are nan.
     """
 
     depth: Array
@@ -99,7 +99,7 @@ def _under_force(
 def _at_elastic_force(curve: LoadingCurve, row: RowOfSprings, creep: Array) -> tuple[Array, Array]:
     """Return depth and stiffness k/G of the loading curve at the force F/G = `creep`.
 
-    After complete contact, the depth continues along the tangent of the last level (computed point).
+    After complete contact, the depth continues along the tangent of the last level.
 
     creep : creep response Φ
     """

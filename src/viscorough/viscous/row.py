@@ -7,7 +7,7 @@ force at depth u is therefore
 
 This is the force of a row of independent springs: the springs with initial gaps from g to g + dg have the stiffness dk
 (docs/theory.md). The row is finite, so its force is piecewise linear in the depth. At chosen depths it equals the force
-of the interpolated curve (LoadingCurve.at_force). The depths are chosen from the levels (computed points) of the curve:
+of the interpolated curve (LoadingCurve.at_force). The depths are chosen from the levels of the curve:
 
 - If at most one element joins the contact between two levels, the curve between them consists of their two tangents.
   The tangents meet at the gap of one spring, whose stiffness is the jump of k. This part of the row is exact.
@@ -36,9 +36,9 @@ _DEVIATION, _FINEST = 0.03, 1e-7
 # Largest relative jump of the stiffness from one chord to the next. The relative error of the velocity is about half of
 # this jump.
 _STIFFNESS_STEP = 2e-3
-# Largest number of chords between two levels (computed points), and approximate largest number of chords in total.
+# Largest number of chords between two levels, and approximate largest number of chords in total.
 _MOST_CHORDS, _MOST_SPRINGS = 2000, 100_000
-# Number of chords that replace the power law before the first level (computed point) of the curve.
+# Number of chords that replace the power law before the first level of the curve.
 _EARLY_CHORDS = 64
 # The first of these chords ends at least at the depth where the stiffness of the power law is 1/_EARLY_CHORDS to this
 # power, 4e-15, of its value at the first level. Motions overflow if the first spring is far softer. The exponent of the
@@ -107,7 +107,7 @@ def _turning_depths(load: Load) -> Array:
 
 
 def _before_first_level(curve: LoadingCurve) -> Array:
-    """Return points of the curve from the origin to its first level (computed point), shape (3, points).
+    """Return points of the curve from the origin to its first level, shape (3, points).
 
     The rows of the array are depths, forces and numbers of elements in contact.
     """
@@ -120,7 +120,7 @@ def _before_first_level(curve: LoadingCurve) -> Array:
 
 
 def _between_levels(curve: LoadingCurve) -> Array:
-    """Return points of the curve after its first level (computed point), shape (3, points).
+    """Return points of the curve after its first level, shape (3, points).
 
     They include all other levels. The rows of the array are depths, forces and numbers of elements in contact.
     """
@@ -155,7 +155,7 @@ def _between_levels(curve: LoadingCurve) -> Array:
 
 
 def _meeting_of_tangents(curve: LoadingCurve, tangents: Mask) -> Array:
-    """Return the depth at which the tangents of two neighbouring levels (computed points of the curve) meet.
+    """Return the depth at which the tangents of two neighbouring levels meet.
 
     There is one depth for each interval between levels; it is nan if the tangents do not meet within the interval.
 

@@ -196,6 +196,14 @@ def test_texts_of_results_are_short():
         assert "array(" not in repr(result)
 
 
+def test_text_of_a_medium_states_an_offset_with_its_interval():
+    found = viscorough.identify_medium(CURVE, FORCE, MOTION.time, MOTION.depth)
+    known = dataclasses.replace(found, offset=2e-9, offset_interval=np.array([1e-9, 3e-9]))
+    assert known.zero_of_depth == "offset of the depth 2e-09 m [1e-09, 3e-09]"
+    unknown = dataclasses.replace(known, offset_interval=np.full(2, np.nan))
+    assert unknown.zero_of_depth == "offset of the depth 2e-09 m"
+
+
 def test_text_of_options_shows_values_other_than_the_default():
     assert repr(viscorough.SolverOptions()) == "SolverOptions()"
     changed = viscorough.SolverOptions(precision="double", padding=False)

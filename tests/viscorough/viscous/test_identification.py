@@ -327,6 +327,13 @@ def test_a_scatter_above_the_depth_leaves_the_zero_unknown():
     assert identify_medium(CURVE, force, TIMES, depth, scatter=10 * depth.max()).offset_effect == np.inf
 
 
+def test_retardation_time_between_times_of_the_grid_is_no_error_of_the_zero():
+    """On the grid alone, the misfit of the true zero is ten times the noise, and a wrong zero fits better."""
+    cell = identification.coverage(("kelvin-voigt", "step", 50, 1e-4), trials=2, wrong_zero=True)
+    assert cell["offset_coverage"] == 1
+    assert cell["coverage"] > 0.8
+
+
 def test_forces_are_in_newtons_and_moduli_in_pascals():
     """The same numbers on a micrometre scale and on a scale of unit lengths."""
     disc = self_affine_disc(0.8, 17, rms=1e-6, diameter=1e-4, seed=1, length_unit="m")

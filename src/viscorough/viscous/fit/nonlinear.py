@@ -6,6 +6,7 @@ determine the medium, and the medium predicts the record (viscous.fit.records).
 - `fit_elements` fits a medium of springs and dashpots with given times and unknown amounts x ≥ 0. If the prediction is
   linear in the unknowns, one non-negative least-squares fit gives the best medium. Otherwise the amounts take
   steps towards such a fit to the tangent of the prediction, which are shortened until the sum of squares decreases.
+- `with_finer_times` refines the grid of times at the elements that are present.
 - `with_free_times` also fits the times of the elements that are present.
 - `fit_springpot` fits the two parameters of a springpot.
 """
@@ -32,6 +33,8 @@ _SUFFICIENT, _SHORTER, _SHARES = 0.25, 0.4, 8
 _EVALUATIONS, _CLOSE, _STEP = 15, 1e-9, 1e-6
 # Relative difference of two times whose derivatives give the derivative with respect to the time of an element.
 _NEAR = 1e-4
+# Number of refinements of a grid, and of new times between two neighbours.
+_REFINEMENTS, _FINER = 2, 4
 # Two times count as equal if their relative difference is below this number.
 _SAME = 1e-6
 # Limits of the exponent of a springpot.
@@ -94,6 +97,26 @@ def fit_elements(record: Record, times: Array, start: tuple[Array, Array] | None
             break
         fit = _at(record, times, *better)
     return fit
+
+
+def with_finer_times(record: Record, fit: ElementFit) -> ElementFit:
+    """Return the best medium on a grid with more times next to the times of the elements that are present.
+
+    New times without an element are left out of the result.
+    """
+    leading, grid = record.leading, fit.times
+    for _ in range(_REFINEMENTS):
+        used = np.flatnonzero(fit.amounts[leading:] > 0)
+        gaps = np.unique(np.clip(np.append(used - 1, used), 0, fit.times.size - 2))
+        shares = np.arange(1, _FINER + 1) / (_FINER + 1)
+        finer = fit.times[gaps, None] * (fit.times[gaps + 1] / fit.times[gaps])[:, None] ** shares
+        times = np.append(fit.times, finer)
+        amounts = np.append(fit.amounts[leading:], np.zeros(finer.size))
+        order = np.argsort(times)
+        fit = fit_elements(record, times[order], (np.append(fit.amounts[:leading], amounts[order]), fit.shift))
+    kept = np.isin(fit.times, grid) | (fit.amounts[leading:] > 0)
+    amounts = np.append(fit.amounts[:leading], fit.amounts[leading:][kept])
+    return _at(record, fit.times[kept], amounts, fit.shift)
 
 
 def with_free_times(record: Record, fit: ElementFit) -> ElementFit:

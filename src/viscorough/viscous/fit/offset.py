@@ -12,7 +12,7 @@ import numpy as np
 
 from viscorough.basics.argument_names import argument
 from viscorough.basics.types import Array, Integers
-from viscorough.viscous.fit.nonlinear import ElementFit, fit_elements, with_free_times
+from viscorough.viscous.fit.nonlinear import ElementFit, fit_elements, with_finer_times
 from viscorough.viscous.fit.records import Record
 
 # The first fits are made at these offsets of the depth, given as shares of the largest depth.
@@ -36,9 +36,14 @@ def fits_of_offsets(record: Record, allowed: Callable[[ElementFit], float]) -> l
     times = record.grid()
 
     def fit(offset: float, near: ElementFit | None = None) -> tuple[Record, ElementFit]:
-        """Fit at an offset, starting from the fit at an offset near to it."""
+        """Fit at an offset, starting from the fit at an offset near to it.
+
+        The grid is refined: the misfit of an element between two of its times would count as an error of the offset.
+        """
         moved = record.at_offset(offset)
-        return moved, fit_elements(moved, times, None if near is None else (near.amounts, near.shift))
+        if near is not None:
+            return moved, fit_elements(moved, near.times, (near.amounts, near.shift))
+        return moved, with_finer_times(moved, fit_elements(moved, times))
 
     def fit_all(offsets: Array) -> list[tuple[Record, ElementFit]]:
         """Fit at each offset, and once more from the best of its neighbours if this is better."""
@@ -77,10 +82,7 @@ def fits_of_offsets(record: Record, allowed: Callable[[ElementFit], float]) -> l
         if first > 0:
             fits.insert(first, fit(0.5 * (fits[first - 1][0].offset + fits[first][0].offset)))
     inside = within(fits, allowed)
-    kept = fits[max(inside[0] - 1, 0) : inside[-1] + 2]
-    moved, best_fit = min(kept, key=lambda pair: pair[1].squares)
-    times = with_free_times(moved, best_fit).times
-    return [(moved, fit_elements(moved, times)) for moved, _ in kept]
+    return fits[max(inside[0] - 1, 0) : inside[-1] + 2]
 
 
 def within(fits: list[tuple[Record, ElementFit]], allowed: Callable[[ElementFit], float]) -> Integers:

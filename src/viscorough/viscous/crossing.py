@@ -14,7 +14,7 @@ from viscorough.media.creep_response import decay
 _CLOSE = 0.2
 # Largest number of halvings of the interval that contains the crossing, and of Halley steps. Both numbers suffice to
 # find the time to rounding.
-_HALVINGS, _HALLEY_STEPS = 64, 60
+_HALVINGS, _HALLEY_STEPS = 64, 120
 # Number of times at which a crossing is expected that are tried before intervals are halved.
 _GUESSES = 6
 # Shape of the work array of `first_crossing`.
@@ -152,7 +152,7 @@ def _increasing_zero(a, b, f, rate, bending, early, close, value, slope, bend, f
     early, close : the search ends when −f is at most `early` and f at most `close`
     value, slope, bend, first, second, rates : coefficients of f, see `_evaluate`
     """
-    s = b if f > 0 else a
+    s, slow = b if f > 0 else a, False
     for _ in range(_HALLEY_STEPS):
         if f > 0:
             b = s
@@ -160,14 +160,15 @@ def _increasing_zero(a, b, f, rate, bending, early, close, value, slope, bend, f
             a = s
         if -early <= f <= close:
             return s
-        step = s + _halley_step(f, rate, bending) if rate > 0 else 0.5 * (a + b)
+        # Far from the zero, Halley steps can be far too short. Halve the interval if a step has not halved |f|.
+        step = s + _halley_step(f, rate, bending) if rate > 0 and not slow else 0.5 * (a + b)
         if not a < step < b:
             step = a + 0.5 * (b - a)
         if not a < step < b:
             return b
-        s = step
+        s, before = step, abs(f)
         f, rate, up, down = _evaluate(s, value, slope, bend, first, second, rates)
-        bending = up - down
+        bending, slow = up - down, not slow and abs(f) > 0.5 * before
     return b
 
 

@@ -2,12 +2,14 @@
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from support.media import SPRINGS_AND_DASHPOTS
 from support.small_motion import SpringsAndDashpots, row_of_springs, small_motion
 from viscorough import Springpot
 from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Prony, StandardLinearSolid
 from viscorough.media.spectra import power_law_spectrum, relaxation_spectrum, spectrum_of
+from viscorough.viscous.crossing import INTERVALS, first_crossing
 from viscorough.viscous.move import BEYOND, INFINITE, SETTLED, move_row
 
 
@@ -16,6 +18,19 @@ def moved(gaps, weights, medium, times, load, *, by_depth, limit=np.inf):
     motion = move_row(gaps, weights, limit, spectrum, times, load, by_depth=by_depth)
     assert motion.ended == SETTLED
     return motion
+
+
+@pytest.mark.parametrize("slope", [0.0, 1e-89, 1e-30, 1e-3])
+def test_touch_is_found_from_a_depth_at_rest(slope):
+    """A creep rate that begins near zero makes the first steps towards the touch far too short."""
+    rate, growth, value, end = 744.8, 260.2, -0.0371, 0.39
+
+    def overlap(s):
+        return value + slope * -np.expm1(-rate * s) / rate + growth * (s + np.expm1(-rate * s) / rate) / rate
+
+    arrays = (np.array([number]) for number in (slope, growth, rate))
+    found = first_crossing(end, 1e-15, 0.0, value, 0.0, 0.0, *arrays, np.zeros(INTERVALS))
+    assert found == pytest.approx(brentq(overlap, 0, end, xtol=1e-15), rel=1e-12)
 
 
 def random_case(number):

@@ -97,7 +97,7 @@ def results_table(table):
         "equivalence": ("the viscous problem follows from the elastic one", "direct integration agrees"),
         "collapse": ("curves of all forces, viscosities and sizes collapse", "one curve for each H"),
         "beta": (
-            f"β = H/(1 + H) for H > 0.4: {listed(exponent_beta(np.array([0.6, 0.9])), '.3f')}",
+            f"β = H/(1 + H), “at least for H > 0.4”: {listed(exponent_beta(np.array([0.6, 0.9])), '.3f')}",
             f"{listed(value['beta'].to_numpy()[-2:], '.3f')} at H = 0.6 and 0.9",
         ),
         "exponent_limit": (
@@ -105,11 +105,18 @@ def results_table(table):
             f"{small['H = 0.4, discs']:.2f} and {small['H = 0.1, discs']:.2f} larger at H = 0.4 and 0.1",
         ),
         "coincide": ("the MDR gives nearly the same β", f"{listed(value['coincide'], '+.2f')} at H = 0.1 to 0.9"),
-        "power_law": ("region (b) is a power law", f"slope ± {value['power_law'].max():.3f} at most"),
-        "master_curve": ("Eq. 12 is the one master curve", f"Eq. 12 times {factor} from H = 0.4 on; cause unknown"),
-        "zeta_viscous": (f"ζ = 2 − H (Eq. 11): {eq_11}", f"{with_gamma} at H = {hursts}"),
+        "power_law": ("region (b) is nearly linear in log-log axes", f"slope ± {value['power_law'].max():.3f} at most"),
+        "master_curve": (
+            "all results collapse to one master curve, Eq. 12",
+            f"Eq. 12 times {factor} from H = 0.4 on; cause unknown",
+        ),
+        "zeta_viscous": (f"ζ ≈ 2 − H (Eq. 11): {eq_11}", f"{with_gamma} at H = {hursts}"),
+        "zeta_better": ("Eq. 11 fits better than Eq. 4, with 1/Γ(2 − α)", "Eq. 11 is nearer"),
         "gamma": ("factor 1/Γ(2 − α), Eqs. 7 to 9", "absent; changes neither exponent nor collapse"),
-        "complete_contact": ("region (c) is almost complete contact", f"begins at {contact} %, ends at {end} %"),
+        "complete_contact": (
+            "region (c), slope 1, is “almost complete” contact",
+            f"slope 1 begins at {contact} %, ends at {end} %",
+        ),
     }
     verdicts["exponent_limit"] = f"on fine grids: {verdicts['exponent_limit']}"
     lines = [f"| {paper} | {here} | {verdicts[claim]} |" for claim, (paper, here) in rows.items()]
@@ -118,14 +125,12 @@ def results_table(table):
 
 def time_sentence():
     """Return a sentence on the times of the default run and of the paper, with machine and date."""
-    table = first_minutes()
-    seconds, (machine, measured) = table.groupby("part")["wall_s"].median(), table[["machine", "measured"]].iloc[-1]
+    machine, measured = first_minutes()[["machine", "measured"]].iloc[-1]
     weeks = read_paper(ROOT / "resources/paper", "numbers")["boundary_elements"]["computing_time"]["value"]
     return paragraph(
-        f"**{weeks.capitalize()} in the paper, {default_minutes()} minutes here**: from `git clone` to the page "
-        f"({machine}, {measured}), with as many discs as the paper up to X = 1.8, and with fewer and shorter lines; "
-        f"{seconds['environment'] + seconds['compilation']:.0f} seconds of this are needed only once. `make paper` "
-        f"takes {costs()['share_s'].sum() / 60:.0f} minutes, with twice as many discs."
+        f"**Boundary elements: {weeks} in the paper, {default_minutes()} minutes here**: from `git clone` to the page "
+        f"({machine}, {measured}), with as many discs as the paper up to X = 1.8, and with fewer and shorter lines. "
+        f"`make paper` takes {costs()['share_s'].sum() / 60:.0f} minutes, with twice as many discs."
     )
 
 

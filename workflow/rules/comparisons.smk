@@ -83,7 +83,7 @@ rule compare_reduction:
     resources:
         mem_mb=1000,
     params:
-        **chosen("discs", "elements", "tolerance"),
+        **chosen("discs", "elements", "realizations", "tolerance"),
         **config["reduction"],
         hursts=config["discs"]["hurst"],
         seed=config["seed"],

@@ -394,9 +394,6 @@ class ScanGroup(Section):
 class Reduction(Section):
     """Comparison of the method of dimensionality reduction with boundary elements, surface by surface."""
 
-    realizations: whole(2, 10_000) = meaning(
-        "discs for each Hurst exponent of `discs`, each compared with its own line"
-    )
     x_low: real(1e-15, 0.1) = meaning("lowest abscissa X at which a line is compared with its disc")
     x_high: X = meaning("highest abscissa", also=f"{TEN_TIMES} `x_low`")
     per_decade: whole(2, 200) = meaning("abscissae per decade")

@@ -7,6 +7,7 @@ values.
 
 from itertools import chain
 
+from viscorough.surfaces.indenter import LARGEST_ASPECT
 from viscorough_study.run.setting_types import shown
 
 # (setting with the lower end, setting with the upper end, smallest allowed ratio of the upper to the lower end)
@@ -159,6 +160,14 @@ def _empty_crop(settings):
                 yield [path], f"{name_of(path)}: {first} to {end} is empty; allowed: an end above the first number"
 
 
+def _unlike_spacings(settings):
+    for i, group in enumerate(settings.measured):
+        if group.spacing and max(group.spacing) > LARGEST_ASPECT * min(group.spacing):
+            path = ["measured", i, "spacing"]
+            allowed = f"distances that differ by up to a factor of {LARGEST_ASPECT}"
+            yield [path], f"{name_of(path)} is {', '.join(f'{d:g}' for d in group.spacing)}; allowed: {allowed}"
+
+
 def _unlike_grids(settings):
     """Yield contradictions between the grids of an ensemble, which are listed from coarse to fine."""
     for i, ensemble in enumerate(settings.nested_grids.ensembles):
@@ -185,4 +194,5 @@ _RULES = (
     _window_outside,
     _wrong_medium,
     _empty_crop,
+    _unlike_spacings,
 )

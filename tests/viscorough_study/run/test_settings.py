@@ -94,6 +94,10 @@ WRONG = [
         "scaling.slope_half_width: 0.01 decades hold no further abscissa; allowed",
     ),
     ({"measured": [SCAN | {"forces": [1, 1.0]}]}, "measured[0].forces: 1 occurs twice; allowed: once"),
+    (
+        {"measured": [SCAN | {"spacing": [22.5, 1.8]}]},
+        "measured[0].spacing is 22.5, 1.8; allowed: distances that differ",
+    ),
     ({"measured": [SCAN | {"preparation": {"crop": [[0, 9], [5, 5]]}}]}, "measured[0].preparation.crop[1]: 5 to 5 is"),
 ]
 

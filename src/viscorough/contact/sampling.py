@@ -56,7 +56,7 @@ _CONTACTS, _LAST_CONTACT = 2, 0.35
 _CONTACT_TOLERANCE = 1e-2
 # Largest number of contacts that are added if the first do not suffice for a decision.
 _FURTHER_CONTACTS = 4
-# A contact at lighter load is added if ln F of the lightest contact exceeds that of the lowest force by more than this.
+# A contact at lighter load is added if ln F of the lightest contact exceeds ln F of the lowest force by more than this.
 _LARGEST_GAP = 0.2
 # A curve is accepted if it differs from the contacts of the full map by at most this share of the requested error. The
 # rest is left for the forces between the contacts.

@@ -81,7 +81,7 @@ class ElementFit(NamedTuple):
 def fit_elements(record: Record, times: Array, start: tuple[Array, Array] | None = None) -> ElementFit:
     """Return the best medium of elements with given times.
 
-    start : first guesses of the amounts, and of offset and drift; None for those of the record
+    start : first guesses of the amounts, and of offset and drift; None for the guesses of the record
     """
     amounts, shift = record.start(times) if start is None else start
     fit = _at(record, times, amounts, shift)

@@ -81,7 +81,7 @@ def _tabulate(axes, combinations):
     """Draw a table of parameters, with a column for each combination and a row for each parameter."""
     axes.axis("off")
     cells = [
-        [readable(at[quantity] / size) for at in combinations.values()] for quantity, (_, size) in QUANTITIES.items()
+        _alike([at[quantity] / size for at in combinations.values()]) for quantity, (_, size) in QUANTITIES.items()
     ]
     labels = [label for label, _ in QUANTITIES.values()]
     place = {"bbox": (0.06, 0, 0.94, 1), "cellLoc": "center", "edges": "open"}
@@ -119,3 +119,8 @@ def _mark_windows(axes, looks, scaling, conventions):
             axes.plot([row.x_low, row.x_high], [0.03 + 0.035 * rank] * 2, color=look["color"], **bar)
             axes.text(0.8 * row.x_low, 0.03 + 0.035 * rank, f"{hurst:g}", **text)
     axes.text(0.97, 0.025, "bars: region (b)", color=style.GREY, transform=axes.transAxes, ha="right")
+
+
+def _alike(values):
+    """Return numbers as text, all with a power of ten if the largest number needs one."""
+    return [readable(value, power=max(values) >= 1e6) for value in values]

@@ -14,6 +14,7 @@ def test_numbers_are_readable():
     texts = {0.39719: "0.397", -0.1021: "−0.102", 51433.0: "51433", 2013.4: "2013", 1.318e-5: "1.3×10⁻⁵"}
     texts |= {2e-6: "2×10⁻⁶", 0.0: "0", np.inf: "∞", None: "–", np.nan: "–"}
     assert {value: readable(value) for value in texts} == texts
+    assert [readable(value, power=True) for value in (1e5, 3e6)] == ["1×10⁵", "3×10⁶"]
     for value in list(texts)[:7]:
         number, half_a_digit = number_in(readable(value))
         assert abs(number - value) <= half_a_digit * 1.001

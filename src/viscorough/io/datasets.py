@@ -1,6 +1,7 @@
-"""Convert the content of NetCDF files to datasets of xarray, and write and read datasets.
+"""Convert the content of NetCDF files to datasets of xarray and back, and read and write datasets.
 
-Only this module and `result_datasets` import xarray, which takes long to import.
+Only this module and `result_datasets` import xarray. Its import takes about as long as the contact of a small map, so
+that commands and jobs which need no labelled arithmetic use `netcdf.Content`.
 """
 
 import xarray as xr
@@ -14,40 +15,29 @@ def content_to_dataset(content: netcdf.Content) -> xr.Dataset:
 
     A variable becomes a coordinate if its only dimension has the name of the variable.
     """
-    given = {name: (v.dimensions, v.values, v.attributes) for name, v in content.variables.items()}
-    along = {name for name, (dimensions, _, _) in given.items() if dimensions == (name,)}
-    data = {name: variable for name, variable in given.items() if name not in along}
-    coordinates = {name: given[name] for name in along}
+    along = {name for name, variable in content.variables.items() if variable.dimensions == (name,)}
+    data = {name: variable for name, variable in content.variables.items() if name not in along}
+    coordinates = {name: content.variables[name] for name in along}
     return xr.Dataset(data, coordinates, attrs=content.attributes | netcdf.global_attributes())
 
 
 def write_dataset(ds: xr.Dataset, path: FilePath) -> None:
-    """Write a dataset as CF-1.11 NetCDF, atomically.
+    """Write a dataset as CF-1.11 NetCDF with `netcdf.write`, which states what the variables need and what it raises.
 
-    Every data variable needs the attribute `long_name`, and `units` unless it holds text. The attributes Conventions,
-    source ("viscorough <version>") and history are added, and large numeric arrays are compressed. The file does not
-    depend on the time and place of writing. The CF conventions forbid coordinates of texts. If the labels of a
-    dimension x are texts, they are therefore written as a variable x with the dimension x_index.
-
-    Raises ValueError for a path that cannot be written, OSError if writing fails.
+    The CF conventions forbid coordinates of texts. If the labels of a dimension x are texts, they are therefore written
+    as a variable x with the dimension x_index.
     """
     labels = {name: f"{name}_index" for name in ds.indexes if ds[name].dtype.kind not in "biuf"}
     ds = ds.reset_index(list(labels)).rename_dims(labels)
-    numeric = {name: variable for name, variable in ds.variables.items() if variable.dtype.kind in "fi"}
-    encoding = {name: netcdf.compression(variable.size) for name, variable in numeric.items()}
-    for name in numeric.keys() & ds.coords.keys():
-        encoding[name]["_FillValue"] = None  # the CF conventions forbid missing values in a coordinate
-    ds = ds.drop_encoding().assign_attrs(netcdf.global_attributes())
-    with netcdf.written_with_digest(path) as temporary:
-        ds.to_netcdf(temporary, engine="netcdf4", encoding=encoding)
+    variables = {str(name): netcdf.Variable(v.dims, v.values, v.attrs) for name, v in ds.variables.items()}
+    netcdf.write(netcdf.Content(variables, ds.attrs), path)
 
 
 def read_dataset(path: FilePath) -> xr.Dataset:
-    """Read a NetCDF file into memory, close it, and restore the text labels that write_dataset converted.
+    """Read a NetCDF file into memory, and restore the text labels that write_dataset converted.
 
     Raises a one-line ValueError if the file is missing or damaged.
     """
-    with netcdf.opened(path) as file:
-        ds = xr.open_dataset(xr.backends.NetCDF4DataStore(file), decode_times=False, decode_timedelta=False).load()
+    ds = content_to_dataset(netcdf.read(path))
     labels = {dim: dim.removesuffix("_index") for dim in map(str, ds.dims) if dim.endswith("_index")}
-    return ds.drop_encoding().swap_dims(labels)
+    return ds.swap_dims(labels)

@@ -1,4 +1,4 @@
-"""Read and write CF NetCDF files with netCDF4 alone, since xarray (`io.datasets`) takes long to import."""
+"""Read and write CF NetCDF files with netCDF4. `io.datasets` converts their content to datasets of xarray."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -102,11 +102,6 @@ def global_attributes() -> dict[str, str]:
     return {"Conventions": "CF-1.11", "source": program, "history": f"written by {program}"}
 
 
-def compression(size: int) -> dict[str, Any]:
-    """Return the arguments of netCDF4 that compress a variable of `size` values; small variables are not compressed."""
-    return {"zlib": True, "complevel": 4, "shuffle": True} if size >= COMPRESSED_FROM else {}
-
-
 @contextmanager
 def written_with_digest(path: FilePath) -> Iterator[Path]:
     """Yield a temporary path for a NetCDF file, add a digest to the written file, and move the file to `path`.
@@ -137,7 +132,8 @@ def write(content: Content, path: FilePath) -> None:
             kind = str if values.dtype.kind in "UO" else values.dtype
             # The CF conventions forbid missing values in a coordinate, so coordinates get no fill value.
             fill = np.nan if values.dtype.kind == "f" and name not in dimensions else None
-            stored = file.createVariable(name, kind, dimensions, fill_value=fill, **compression(values.size))
+            is_large = values.size >= COMPRESSED_FROM
+            stored = file.createVariable(name, kind, dimensions, fill_value=fill, zlib=is_large, complevel=4)
             stored.setncatts(attributes)
             stored[...] = values
 

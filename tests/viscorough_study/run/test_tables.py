@@ -5,12 +5,12 @@ import os
 import numpy as np
 import pandas as pd
 import pytest
+import xarray as xr
 
 from support.cf import violations
 from support.command_line import python
 from support.contract import refused
 from support.workflow import load_script
-from viscorough.io.datasets import read_dataset
 from viscorough_study.run.tables import read_table, write_table
 
 
@@ -21,7 +21,7 @@ def test_table_is_read_exactly_from_both_files(tmp_path):
     files = [tmp_path / f"fits.{kind}" for kind in ("csv", "nc")]
     write_table(table, *files, columns=columns, dimension="fit", title="Fits", attributes={"trial": 1})
     pd.testing.assert_frame_equal(pd.read_csv(files[0]), table, check_exact=True)
-    ds = read_dataset(files[1])
+    ds = xr.load_dataset(files[1])  # as users read it
     assert dict(ds.sizes) == {"fit": 2}
     assert (ds.title, ds.trial) == ("Fits", 1)
     assert ds["beta"].attrs == {"long_name": "beta in words", "units": "1"}

@@ -19,11 +19,10 @@ from viscorough.basics.types import Array
 
 # Largest number of values of λ that are tried for an extreme value, and largest accepted relative error of the
 # distance.
-_TRIALS, _CLOSE = 12, 0.01
-# The next λ is the present λ multiplied by the ratio of the required distance and the reached distance. The ratio is
-# limited to _LARGEST_FACTOR. The reached distance counts as at least the share _LEAST_SHARE of the required distance,
-# so that the ratio is finite.
-_LARGEST_FACTOR, _LEAST_SHARE = 4.0, 1e-3
+_TRIALS, _CLOSE = 60, 0.01
+# The next λ is the present λ multiplied by the ratio of the required distance and the reached distance. The reached
+# distance counts as at least this share of the required distance, because a smaller one consists of rounding errors.
+_LEAST_SHARE = 1e-3
 # Rounding error of the gradient of ½ ‖A x − b‖², relative to the norm of b. Columns of A have the norm 1.
 _ROUNDING = 1e-11
 # An unknown of any sign gets a negative lower bound. The norm of its column, multiplied by the absolute value of the
@@ -116,7 +115,7 @@ def _extremes(columns, target, functions, best, multipliers, distance):
             ratio = distance / max(excess, _LEAST_SHARE * distance)
             if abs(ratio - 1) < _CLOSE:
                 break
-            multiplier *= min(ratio, _LARGEST_FACTOR)
+            multiplier *= ratio
         values[k] = functions[k] @ x
     return values
 

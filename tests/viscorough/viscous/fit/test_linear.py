@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq, nnls
 
+from viscorough.media.free_form import creep_columns
 from viscorough.viscous.fit.linear import extremes, non_negative
 
 PRESCRIBED = 1e5  # weight of the equation that prescribes a value
@@ -61,3 +62,19 @@ def test_unknowns_of_any_sign_are_differences_of_non_negative_ones():
         assert high[k] == pytest.approx(farthest(both, target, row, 0.4, 1), abs=0.01)
         if k:
             assert low[k] == pytest.approx(farthest(both, target, row, 0.4, -1), abs=0.01)
+
+
+def test_extremes_of_nearly_dependent_columns_reach_the_distance():
+    """The drift t and many delayed elements nearly replace each other, so the first guess of λ is far too small."""
+    times = np.geomspace(0.02, 60, 50)
+    matrix, signed = creep_columns(times, np.geomspace(0.007, 180, 46)), times[:, None]
+    noise = 1e-3 * np.random.default_rng(7).standard_normal(50)
+    target = -np.expm1(-times / 2.5) + 2e-4 * times + noise
+    _, high = extremes(matrix, target, matrix[:0], 5e-3, signed)
+
+    def excess(drift):
+        x, _ = non_negative(matrix, target - drift * times)
+        return np.sum((matrix @ x + drift * times - target) ** 2)
+
+    _, (best,) = non_negative(matrix, target, signed)
+    assert excess(high[0]) - excess(best) == pytest.approx(5e-3**2, rel=0.03)

@@ -33,10 +33,10 @@ from viscorough.surfaces.indenter import Indenter as Indenter
 from viscorough.surfaces.preparation import prepare as prepare
 from viscorough.surfaces.self_affine import self_affine_disc as self_affine_disc
 from viscorough.surfaces.self_affine import self_affine_line as self_affine_line
+from viscorough.viscous.estimate import estimate as estimate
 from viscorough.viscous.identification import identify_medium as identify_medium
 from viscorough.viscous.integration.march import march as march
 from viscorough.viscous.kinetics import kinetics as kinetics
-from viscorough.viscous.law_estimate import estimate as estimate
 from viscorough.viscous.pressures import pressure_at as pressure_at
 
 __version__: str

@@ -60,7 +60,7 @@ def estimate(
     import numpy as np
 
     from viscorough.io.motion_files import estimate_to_content
-    from viscorough.viscous.law_estimate import estimate
+    from viscorough.viscous.estimate import estimate
 
     options.require((viscosity is None) != (medium is None), "one of --viscosity and --medium is needed")
     if output:

@@ -11,7 +11,7 @@ import pytest
 from support.page import BROWSER, Page, number_in, opened
 from support.study import ROOT
 from viscorough.law.calibrated_law import penetration_law
-from viscorough.viscous.law_estimate import estimate
+from viscorough.viscous.estimate import estimate
 from viscorough_study.page.calculator import calculator, law_table
 
 FOLDER = ROOT / "workflow/page"

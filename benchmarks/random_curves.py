@@ -17,7 +17,7 @@ from viscorough.contact.step_control import FINEST_ACCURACY
 from viscorough.contact.sum_rules import audit, complete_contact
 from viscorough.surfaces.indenter import Indenter
 from viscorough.surfaces.self_affine import self_affine_disc
-from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.events import newtonian_events
 from viscorough.viscous.kinetics import kinetics
 from viscorough_study.robustness.stress_solutions import GRID_ONLY
 
@@ -122,7 +122,7 @@ def levels_failure(case, solver_type=ContactSolver):
     A ConvergenceError is not a silent failure, but a level solved before it can be wrong.
     """
     tolerance, options = case.arguments["tolerance"], case.arguments["options"]
-    solver, events = solver_type(case.indenter, tolerance, options), march_events(case.indenter)
+    solver, events = solver_type(case.indenter, tolerance, options), newtonian_events(case.indenter)
     row, column = solver.elements.row, solver.elements.column
     influence = solver.elements.influence[abs(row[:, None] - row), abs(column[:, None] - column)]
     contact, wrong = solver.unloaded_state(), ""
@@ -157,7 +157,7 @@ def curve_failure(case, compute=indent):
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", AccuracyWarning)
         curve = compute(case.indenter, **case.arguments)
-    events = march_events(case.indenter)
+    events = newtonian_events(case.indenter)
     tolerance, rounding = case.arguments["tolerance"], _HEIGHT_ROUNDING * max(np.nanmax(case.indenter.initial_gap), 0)
     exact = events.depth_at(curve.force)
     if wrong := _error("depth {:.3g} of a level", curve.depth, curve.depth, exact, tolerance, rounding):

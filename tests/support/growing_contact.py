@@ -2,9 +2,9 @@
 
 While the contact set does not change, its elements move with the indenter. In every medium the motions y of the
 elements (see the module internal_variables) then satisfy y' = q u', with K q = 1 on the set. So the contact events
-depend on the motion only, not on the medium. They are the events that march_events computes for a viscous medium, if
-the total motion Z = 4πd Σy of all elements replaces the impulse ∫F dt/η. Let W_i be 4πd times the sum over all elements
-of the internal variable w_i of branch i. The force is
+depend on the motion only, not on the medium. They are the events that newtonian_events computes for a viscous medium,
+if the total motion Z = 4πd Σy of all elements replaces the impulse ∫F dt/η. Let W_i be 4πd times the sum over all
+elements of the internal variable w_i of branch i. The force is
 
     F = G∞ Z + Σ_i G_i W_i + η Z',    W_i' = Z' − W_i/τ_i.
 
@@ -35,7 +35,7 @@ from scipy.linalg import lapack
 from scipy.special import exprel, hyp1f1
 
 from viscorough.basics.arrays import jumps_and_slopes
-from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.events import newtonian_events
 
 
 def growing_contact(indenter, medium, times, force, until_fraction):
@@ -46,7 +46,7 @@ def growing_contact(indenter, medium, times, force, until_fraction):
     until_fraction : contact fraction that is not exceeded
     """
     motion = _total_motion(_modes(medium.relaxation), np.asarray(times), np.asarray(force))
-    events = march_events(indenter, until_fraction=until_fraction)
+    events = newtonian_events(indenter, until_fraction=until_fraction)
     assert (np.diff(motion) >= 0).all()
     assert motion[-1] <= events.impulse[-1]
     return events.depth_at(motion), np.where(motion > 0, events.contact_count[events.event_at(motion)], 0)

@@ -17,7 +17,7 @@ from viscorough import reference
 from viscorough.mdr import line_of_map, line_of_surface
 from viscorough.media.identified_medium import IdentifiedMedium
 from viscorough.surfaces.self_affine import cut_disc
-from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.events import newtonian_events
 
 UREG = pint.UnitRegistry()
 # Numbers of the calls are sums of few powers of two, so single and half precision hold them exactly.
@@ -303,8 +303,8 @@ METHODS = {
     "at_force": call(CURVE.at_force, {"force": ([0.5, 1.0], AREA)}),
     "at_depth": call(CURVE.at_depth, {"depth": ([0.5, 1.0], LENGTH)}),
     "normalised": call(CURVE.normalised, {"rms": (0.5, LENGTH), "diameter": (8.0, LENGTH)}),
-    "depth_at": call(march_events(DISC).depth_at, {"impulse": [0.5, 1.0]}),
-    "event_at": call(march_events(DISC).event_at, {"impulse": [0.5, 1.0]}),
+    "depth_at": call(newtonian_events(DISC).depth_at, {"impulse": [0.5, 1.0]}),
+    "event_at": call(newtonian_events(DISC).event_at, {"impulse": [0.5, 1.0]}),
     "law.velocity": call(viscorough.penetration_law(0.5).velocity, {"x": [0.5, 1.0]}),
     "law.depth": call(viscorough.penetration_law(0.5).depth, {"x": [0.5, 1.0]}),
     "law.velocity_interval": call(viscorough.penetration_law(0.5).velocity_interval, {"x": [0.5, 1.0]}),

@@ -13,8 +13,8 @@ from viscorough.basics.arrays import ReadOnlyArrays
 from viscorough.io.datasets import read_dataset
 from viscorough.io.saving import Result
 from viscorough.media.identified_medium import IdentifiedMedium
-from viscorough.viscous.integration.events import march_events
-from viscorough.viscous.integration.stepping import march_steps
+from viscorough.viscous.integration.events import newtonian_events
+from viscorough.viscous.integration.stepping import newtonian_steps
 
 DISC = viscorough.self_affine_disc(0.7, 9, rms=1e-8, diameter=1e-6, length_unit="m", seed=1)
 CURVE = viscorough.indent(DISC, until_fraction=1.0)
@@ -36,8 +36,8 @@ def results():
     yield viscorough.Load([0.0, 1.0], depth=[1e-9, 1e-9])
     yield viscorough.kinetics(CURVE, depth=[1e-9, 1e-9], medium=SOLID, times=[0.0, 1.0])
     yield viscorough.identify_medium(CURVE, FORCE, MOTION.time, MOTION.depth)
-    yield march_events(DISC)
-    yield march_steps(DISC, [1e-16])
+    yield newtonian_events(DISC)
+    yield newtonian_steps(DISC, [1e-16])
     for force in ([FORCE, FORCE], [FORCE, 0.1 * FORCE]):
         yield viscorough.march(DISC, viscorough.Load([0.0, 1.0], force=force), SOLID)
     held = viscorough.Load([0.0, 1.0], force=[FORCE, FORCE])
@@ -162,7 +162,7 @@ def test_a_load_is_a_force_or_a_depth():
 @pytest.mark.parametrize("scheme", ["explicit", "heun", "implicit"])
 def test_steps_accept_the_same_tolerances_as_contacts(scheme, tolerance):
     with refused("time steps: tolerance"):
-        march_steps(DISC, [1e-16], scheme=scheme, tolerance=tolerance)
+        newtonian_steps(DISC, [1e-16], scheme=scheme, tolerance=tolerance)
 
 
 @pytest.mark.parametrize("heights", [[[0.0, 1.0], [0.5, 0.25]], [0.0, 1.0, 0.5]])

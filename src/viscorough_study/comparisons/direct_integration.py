@@ -13,7 +13,7 @@ from scipy.special import gamma as gamma_function
 from viscorough import reference
 from viscorough.contact.loading_path import indent
 from viscorough.surfaces.self_affine import self_affine_disc
-from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.events import newtonian_events
 from viscorough_study.run.seeds import gamma_factor_key, realization_seed
 
 COLUMNS = {
@@ -51,13 +51,13 @@ def compare_direct(*, hursts, elements, impulses, seed):
     """
     rows = []
     for name, (body, alpha) in BODIES.items():
-        events = march_events(body.indenter(elements), until_fraction=BODY_FRACTION)
+        events = newtonian_events(body.indenter(elements), until_fraction=BODY_FRACTION)
         radii = np.array([RADII[0], RADII[1] * elements]) / elements
         impulse = np.geomspace(*body.force(body.mdr_profile(radii)), impulses)
         rows += _rows(name, alpha, events, impulse, body.depth(impulse))
     for hurst in hursts:
         disc = self_affine_disc(hurst, elements, seed=realization_seed(seed, *gamma_factor_key(hurst)))
-        events = march_events(disc, until_fraction=DISC_FRACTION)
+        events = newtonian_events(disc, until_fraction=DISC_FRACTION)
         elastic = indent(disc, tolerance=TOLERANCE, until_fraction=DISC_FRACTION)
         last = LAST_FORCE * min(events.impulse[-1], elastic.force[-1])
         impulse = np.geomspace(events.impulse[FIRST_EVENT], last, impulses)
@@ -69,7 +69,7 @@ def compare_direct(*, hursts, elements, impulses, seed):
 def _rows(case, alpha, events, impulse, elastic_depth):
     """Return the table rows of one indenter, one row for each impulse ∫F dt/η, with the columns of `COLUMNS`.
 
-    case : name of the indenter; alpha : α in the stiffness k ∝ F^α of the indenter; events : result of `march_events`
+    case : name of the indenter; alpha : α in the stiffness k ∝ F^α of the indenter; events : its contact events
     impulse : values of the impulse; elastic_depth : depths of the elastic contact at F/G equal to each impulse
     """
     counts = events.contact_count[events.event_at(impulse)]

@@ -16,7 +16,7 @@ from viscorough.contact.loading_path import indent
 from viscorough.mdr import reduce
 from viscorough.surfaces.indenter import Indenter
 from viscorough.surfaces.self_affine import cut_disc, self_affine_disc
-from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.events import newtonian_events
 from viscorough.viscous.kinetics import kinetics
 
 BODIES = {"sphere": reference.sphere(1.0), "cone": reference.cone(0.1)}
@@ -136,7 +136,7 @@ def _correspondence(disc):
     impulse ∫F dt/η equals F/G. The result is the relative deviation of the depths by direct integration at these
     impulses.
     """
-    events = march_events(disc, until_fraction=min(1.0, EVENTS / disc.elements))
+    events = newtonian_events(disc, until_fraction=min(1.0, EVENTS / disc.elements))
     depth = np.unique(events.depth[1:])[::EVENTS_APART]
     elastic = indent(disc, depths=depth, tolerance=CORRESPONDENCE_TOLERANCE)
     return _error(events.depth_at(elastic.force), depth)

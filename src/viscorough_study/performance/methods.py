@@ -17,8 +17,8 @@ from viscorough.basics.errors import AccuracyWarning
 from viscorough.contact.loading_path import indent
 from viscorough.mdr import reduce
 from viscorough.surfaces.self_affine import self_affine_line
-from viscorough.viscous.integration.events import march_events
-from viscorough.viscous.integration.stepping import march_steps
+from viscorough.viscous.integration.events import newtonian_events
+from viscorough.viscous.integration.stepping import newtonian_steps
 
 
 @dataclass(frozen=True)
@@ -63,20 +63,20 @@ def _at_levels(problem, tolerance):
 
 def _events(problem, fraction):
     """Compute the velocities by integration in time from contact event to contact event, up to a contact fraction."""
-    events = march_events(problem.indenter, until_fraction=fraction)
+    events = newtonian_events(problem.indenter, until_fraction=fraction)
     return problem.force / events.resistance[events.event_at(problem.force)], events.impulse.size
 
 
 def _steps(scheme, problem, number):
     """Compute the velocities by integration of the viscous problem in time steps, and by interpolation between them.
 
-    scheme : scheme of `march_steps`
+    scheme : scheme of `newtonian_steps`
     number : number of steps; the impulses ∫F dt/η at the ends of the steps are in equal ratios
     """
     ends = np.geomspace(1e-4 * problem.force[0], problem.force[-1] * (1 + 1e-12), number)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AccuracyWarning)  # the error of too few steps is measured, too
-        steps = march_steps(problem.indenter, ends, scheme=scheme)
+        steps = newtonian_steps(problem.indenter, ends, scheme=scheme)
     resistance = np.exp(np.interp(np.log(problem.force), np.log(ends), np.log(steps.resistance)))
     return problem.force / resistance, steps.impulse.size
 
@@ -86,7 +86,7 @@ def _implicit(problem, tolerance):
 
     The steps end at the impulses ∫F dt/η of the reference solution.
     """
-    steps = march_steps(problem.indenter, problem.force, scheme="implicit", tolerance=tolerance)
+    steps = newtonian_steps(problem.indenter, problem.force, scheme="implicit", tolerance=tolerance)
     return problem.force / steps.resistance, steps.impulse.size
 
 

@@ -18,8 +18,8 @@ import pandas as pd
 from viscorough.basics.errors import AccuracyWarning
 from viscorough.contact.halfspace.influence import influence_coefficient
 from viscorough.surfaces.self_affine import cut_disc, self_affine_disc
-from viscorough.viscous.integration.events import march_events
-from viscorough.viscous.integration.stepping import march_steps
+from viscorough.viscous.integration.events import newtonian_events
+from viscorough.viscous.integration.stepping import newtonian_steps
 from viscorough_study.ensembles.pool import ensembles, select
 from viscorough_study.fits.conventions import fits
 from viscorough_study.run.names import BOX, RANGE, STEPS
@@ -52,7 +52,7 @@ def failure_knobs(discs, scaling, *, seed, across, conventions):
 
 def _step_rows(seed, across):
     disc = self_affine_disc(HURST, across, seed=realization_seed(seed, *failure_map_key()))
-    events = march_events(disc, until_fraction=FRACTIONS[1])
+    events = newtonian_events(disc, until_fraction=FRACTIONS[1])
     # Begin with at least two elements in contact, because the first element touches at an impulse of zero.
     first = events.impulse[np.searchsorted(events.contact_count, max(FRACTIONS[0] * disc.elements, 2))]
     impulses = np.geomspace(first, events.impulse[-1] * (1 - 1e-9), COMPARED)
@@ -60,7 +60,7 @@ def _step_rows(seed, across):
         ends = np.union1d(np.geomspace(impulses[0] / number, impulses[-1], number + 1)[1:], impulses)
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always", AccuracyWarning)
-            steps = march_steps(disc, ends, scheme="explicit")
+            steps = newtonian_steps(disc, ends, scheme="explicit")
         depth = steps.depth[np.searchsorted(steps.impulse, impulses)]
         yield STEPS, HURST, number, np.abs(depth / events.depth_at(impulses) - 1).max(), int(bool(caught))
 

@@ -25,9 +25,9 @@ from viscorough.media.creep_response import creep_response
 from viscorough.media.kinds import Newtonian
 from viscorough.media.load import Load
 from viscorough.surfaces.self_affine import self_affine_line
-from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.events import newtonian_events
 from viscorough.viscous.integration.march import march
-from viscorough.viscous.integration.stepping import march_steps
+from viscorough.viscous.integration.stepping import newtonian_steps
 from viscorough.viscous.kinetics import kinetics
 
 DENSE_ONLY = SolverOptions(dense_contacts=10**9, dense_interactions=10**12)
@@ -111,7 +111,7 @@ def _interpolated(case, solution):
     ends = np.minimum(solution.force, curve.force[-1])
     starts = np.append(ends[0], ends[:-1])
     force = starts[:, None] * (ends / starts)[:, None] ** np.linspace(0, 1, INTERPOLATED_FORCES)
-    events = march_events(case.indenter, until_fraction=_last_fraction(case, solution))
+    events = newtonian_events(case.indenter, until_fraction=_last_fraction(case, solution))
     return curve.at_force(force)[0] / events.depth_at(force)
 
 
@@ -122,7 +122,7 @@ def _last_fraction(case, solution):
 
 def _events(case, solution):
     """Compute depths by integration from contact event to contact event; return their ratios to the reference."""
-    events = march_events(case.indenter, until_fraction=_last_fraction(case, solution))
+    events = newtonian_events(case.indenter, until_fraction=_last_fraction(case, solution))
     return events.depth_at(solution.force) / solution.depth
 
 
@@ -139,7 +139,7 @@ def _steps(case, solution):
         times = np.linspace(0, samples[-1], case.steps)
         impulse = Load(times, force=np.interp(times, samples, case.force)).integral
         ends = solution.force[-1] * np.unique(impulse[impulse > 0]) / impulse[-1]
-    steps = march_steps(case.indenter, np.union1d(ends, solution.force), scheme="explicit")
+    steps = newtonian_steps(case.indenter, np.union1d(ends, solution.force), scheme="explicit")
     return steps.depth[np.searchsorted(steps.impulse, solution.force)] / solution.depth
 
 
@@ -220,7 +220,7 @@ def _motion_reference(case, solution):
     if (np.diff(load.values) < 0).any():  # the contact recedes while the force falls
         return _stepped(case, solution, REFERENCE_STEPS)
     # A contact that grows has the same events in every medium: the creep response replaces the impulse ∫F dt/η.
-    events = march_events(case.indenter, until_fraction=_last_fraction(case, solution))
+    events = newtonian_events(case.indenter, until_fraction=_last_fraction(case, solution))
     return events.depth_at(creep_response(case.medium.spectrum(load)[0], load))
 
 

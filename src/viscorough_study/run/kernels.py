@@ -52,9 +52,9 @@ def _lines_and_columns():
 def _events():
     """Integrate the contact events of a disc."""
     from viscorough.surfaces.self_affine import self_affine_disc
-    from viscorough.viscous.integration.events import march_events
+    from viscorough.viscous.integration.events import newtonian_events
 
-    march_events(self_affine_disc(0.6, 17, seed=0))
+    newtonian_events(self_affine_disc(0.6, 17, seed=0))
 
 
 def _exact_contacts():

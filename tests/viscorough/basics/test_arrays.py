@@ -10,8 +10,8 @@ import pytest
 from support.curves import random_curve
 from viscorough import Indenter, Load, contact_at, kinetics
 from viscorough.basics.arrays import fraction, positive, read_only, real_number, real_numbers, whole_number
-from viscorough.viscous.integration.events import march_events
-from viscorough.viscous.integration.stepping import march_steps
+from viscorough.viscous.integration.events import newtonian_events
+from viscorough.viscous.integration.stepping import newtonian_steps
 
 HILL = Indenter([[0.0, 1.0], [0.5, 0.2]], 1.0)
 
@@ -55,8 +55,8 @@ def arrays_of(result):
         HILL,
         kinetics(random_curve(), 1.0, 1.0),
         Load([1.0, 2.0], force=[1.0, 1.0]),
-        march_events(HILL),
-        march_steps(HILL, np.array([0.1, 1.0])),
+        newtonian_events(HILL),
+        newtonian_steps(HILL, np.array([0.1, 1.0])),
         contact_at(HILL, depth=0.1),
     ],
     ids=lambda result: type(result).__name__,
@@ -76,7 +76,7 @@ def test_masked_samples_of_a_force_are_refused():
     with pytest.raises(ValueError, match="time: allowed is one row of finite numbers"):
         Load(masked, force=[1, 2, 3])
     with pytest.raises(ValueError, match="finite numbers"):
-        march_steps(HILL, masked)
+        newtonian_steps(HILL, masked)
 
 
 WRONG = {

@@ -7,7 +7,7 @@ from support.contract import refused
 from viscorough import Indenter, SolverOptions, contact_at, indent, reference, self_affine_disc
 from viscorough.basics.errors import ConvergenceError
 from viscorough.contact.prescribed_depth import ContactSolver
-from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.events import newtonian_events
 
 
 def observed_order(elements, errors):
@@ -216,7 +216,7 @@ def test_levels_of_a_paraboloid_increase_and_are_finite(across, centre):
 
 def test_last_interval_of_a_small_curve_is_as_accurate_as_the_others():
     indenter = Indenter(np.array([[0.52, 0.08, 0.73], [0.7, 0.74, 0.85], [0.22, 0.55, 0.55]]), 1.0)
-    curve, events = indent(indenter, tolerance=1e-5, until_fraction=0.5), march_events(indenter)
+    curve, events = indent(indenter, tolerance=1e-5, until_fraction=0.5), newtonian_events(indenter)
     force = np.linspace(0, curve.force[-1], 200)[1:]
     np.testing.assert_allclose(curve.at_force(force)[0], events.depth_at(force), rtol=1e-5)
 

@@ -6,7 +6,7 @@ import pytest
 from support.influence import influence_matrix
 from viscorough import Indenter, SolverOptions, contact_at, indent, self_affine_disc
 from viscorough.contact.halfspace.influence import influence_coefficient
-from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.events import newtonian_events
 
 DISC = self_affine_disc(0.7, 33, seed=4)
 GRID = SolverOptions(dense_contacts=0, dense_interactions=0)
@@ -105,7 +105,7 @@ def test_force_that_overflows_is_refused():
 def test_no_element_is_under_tension_at_forces_of_contact_events(seed):
     """An element that touches at exactly this force has no pressure, but for rounding of either sign."""
     indenter = Indenter(np.random.default_rng(seed).random((5, 6)), 1.0, 1.7)
-    forces = march_events(indenter).impulse[1:]
+    forces = newtonian_events(indenter).impulse[1:]
     for force in (forces * (1 + np.finfo(float).eps * np.arange(-2, 3)[:, None])).ravel():
         contact = contact_at(indenter, force=force, tolerance=1e-8)
         assert contact.pressure.min() >= 0

@@ -24,7 +24,7 @@ from viscorough import (
 )
 from viscorough.contact.gap_map import gap_map
 from viscorough.contact.prescribed_depth import ContactSolver
-from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.events import newtonian_events
 
 TOLERANCE = 1e-9
 # The relative error of the force is of second order in the tolerance. The error of the stiffness is of second order in
@@ -187,6 +187,6 @@ def test_depth_grows_under_a_force_and_is_constant_without_one(pressing, earlier
 @some
 def test_kinetics_agrees_with_direct_integration_in_time(indenter, seed):
     """Integration from event to event in time gives the same depths as the correspondence with the elastic problem."""
-    curve, events = indent(indenter, tolerance=TOLERANCE, until_fraction=1.0), march_events(indenter)
+    curve, events = indent(indenter, tolerance=TOLERANCE, until_fraction=1.0), newtonian_events(indenter)
     times = np.sort(np.random.default_rng(seed).random(30)) * curve.force[-1]
     np.testing.assert_allclose(kinetics(curve, 1.0, 1.0, times).depth, events.depth_at(times), rtol=1e-9)

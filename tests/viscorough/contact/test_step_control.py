@@ -8,7 +8,7 @@ from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.state import DenseContact, GridContact
 from viscorough.contact.step_control import Level, StepControl, division, interpolate, interpolation_bound
-from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.events import newtonian_events
 
 
 def springs(gaps, depth):
@@ -51,7 +51,7 @@ def boss_on_a_plate(across=24, radius=7):
 @pytest.mark.parametrize("start_fraction", [0.0, 0.2])
 def test_a_kink_is_resolved(tolerance, start_fraction):
     boss = boss_on_a_plate()
-    events, curve = march_events(boss), indent(boss, tolerance=tolerance, start_fraction=start_fraction)
+    events, curve = newtonian_events(boss), indent(boss, tolerance=tolerance, start_fraction=start_fraction)
     first = max(curve.force[curve.contact_fraction < start_fraction], default=0.0)
     impulse = events.impulse[(events.impulse > first) & (events.impulse <= curve.force[-1])]
     impulse = np.union1d(impulse, (impulse[1:] + impulse[:-1]) / 2)

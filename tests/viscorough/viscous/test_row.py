@@ -7,7 +7,7 @@ import pytest
 
 from support.curves import curve_of_body, curve_of_levels, random_curve
 from viscorough import AccuracyWarning, Load, Maxwell, indent, kinetics, reference, self_affine_disc
-from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.events import newtonian_events
 from viscorough.viscous.row import row_of_springs
 
 DISC = self_affine_disc(0.7, 65, rms=0.01, seed=1)
@@ -36,7 +36,7 @@ def test_row_has_the_force_of_the_curve(tolerance):
 def test_row_of_a_curve_of_all_contact_events_is_exact():
     """The reference is direct integration, at and between its events; some events are two springs within rounding."""
     disc = self_affine_disc(0.7, 9, rms=0.01, seed=1)
-    events = march_events(disc)
+    events = newtonian_events(disc)
     row = row_of_springs(indent(disc, tolerance=1e-11, until_fraction=1.0))
     np.testing.assert_allclose(force_of_row(row, events.depth), events.impulse, rtol=1e-9, atol=1e-15)
     between = 0.5 * (events.depth[1:] + events.depth[:-1])

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.events import newtonian_events
 from viscorough_study.performance import measurement, methods, problems, timing
 
 
@@ -27,7 +27,7 @@ def table(problem, few_values):
 
 
 def test_reference_velocities_agree_with_direct_integration(problem):
-    events = march_events(problem.indenter, until_fraction=0.7)
+    events = newtonian_events(problem.indenter, until_fraction=0.7)
     here = problem.force < events.impulse[-1]
     last = np.searchsorted(events.impulse, problem.force[here], side="right") - 1
     np.testing.assert_allclose(problem.force[here] / events.resistance[last], problem.velocity[here], rtol=1e-9)

@@ -76,7 +76,7 @@ def _impulses(values: ArrayLike) -> Array:
     return impulses
 
 
-def march_events(indenter: Indenter, *, until_fraction: float = 1.0) -> Events:
+def newtonian_events(indenter: Indenter, *, until_fraction: float = 1.0) -> Events:
     """Compute the penetration of a rigid indenter into a linearly viscous half-space, exactly from event to event.
 
     Every contact event adds one element to the contact set, and one row to the Cholesky factor of the influence matrix
@@ -109,8 +109,9 @@ def march_events(indenter: Indenter, *, until_fraction: float = 1.0) -> Events:
     Examples
     --------
     >>> import viscorough
+    >>> from viscorough.viscous.integration.events import newtonian_events
     >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
-    >>> events = viscorough.march_events(disc, until_fraction=0.1)
+    >>> events = newtonian_events(disc, until_fraction=0.1)
     >>> int(events.contact_count[-1])
     20
     """

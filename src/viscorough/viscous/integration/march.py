@@ -9,7 +9,7 @@ from viscorough.media.load import Load
 from viscorough.media.medium import Medium
 from viscorough.results.motion import Motion
 from viscorough.surfaces.indenter import Indenter
-from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.events import newtonian_events
 from viscorough.viscous.integration.internal_variables import check_overflow, checked_input, integrate_steps
 
 METHODS = ("implicit", "events")
@@ -99,7 +99,7 @@ def _integrate_events(
         )
     impulse = load.in_units_of(indenter.length_unit).integral / relaxation.viscosity
     check_overflow(impulse)
-    events = march_events(indenter, until_fraction=until_fraction)
+    events = newtonian_events(indenter, until_fraction=until_fraction)
     if impulse[-1] > events.impulse[-1] and events.contact_count[-1] < events.elements:
         raise ConvergenceError(
             f"march: {events.contact_count[-1]} elements touch before time {times[-1]:.6g}; a larger "

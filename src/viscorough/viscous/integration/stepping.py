@@ -66,7 +66,7 @@ class Steps(ReadOnlyArrays):
     length_unit: str = "1"
 
 
-def march_steps(
+def newtonian_steps(
     indenter: Indenter,
     impulses: ArrayLike,
     *,
@@ -122,8 +122,9 @@ def march_steps(
     Examples
     --------
     >>> import viscorough
+    >>> from viscorough.viscous.integration.stepping import newtonian_steps
     >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
-    >>> steps = viscorough.march_steps(disc, [0.01, 0.02], scheme="implicit")
+    >>> steps = newtonian_steps(disc, [0.01, 0.02], scheme="implicit")
     >>> bool(steps.depth[0] < steps.depth[1])
     True
     """

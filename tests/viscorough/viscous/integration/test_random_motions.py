@@ -18,7 +18,7 @@ from support.small_motion import SpringsAndDashpots, half_space, row_of_springs,
 from viscorough import Indenter
 from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Prony, StandardLinearSolid
 from viscorough.media.medium import Medium
-from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.events import newtonian_events
 
 COUNT = int(os.environ.get("MOTIONS", "40"))
 TOLERANCE = 1e-9
@@ -138,7 +138,7 @@ def deviation(case, *, by_springs):
     loads = result.pressure[exists] * indenter.spacing * indenter.row_spacing
     assert (loads >= 0).all()
     if by_springs:
-        events = march_events(indenter)
+        events = newtonian_events(indenter)
         problem = row_of_springs(events.depth, np.diff(events.resistance, prepend=0.0))
     else:
         problem = half_space(indenter.heights, (indenter.spacing, indenter.row_spacing))

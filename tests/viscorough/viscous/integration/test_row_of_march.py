@@ -15,7 +15,7 @@ import pytest
 from support.media import SPRINGS_AND_DASHPOTS
 from support.row_steps import stepped_row
 from viscorough import Indenter, Load, indent, kinetics, march, self_affine_disc
-from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.events import newtonian_events
 
 COUNT = int(os.environ.get("ROWS", "0"))
 SIZES = (17, 25, 33) if COUNT else (9,)
@@ -82,7 +82,7 @@ def with_steps(load, parts):
 
 def difference(indenter, medium, load):
     """Return the difference of the row from march, over the largest depth or force."""
-    events = march_events(indenter)
+    events = newtonian_events(indenter)
     row = events.depth, np.diff(events.resistance, prepend=0.0)
     marched = march(indenter, load, medium)
     control = "depth" if load.by_depth else "force"
@@ -99,7 +99,7 @@ def test_march_equals_the_row_of_springs_with_the_same_steps(kind, control):
         across = SIZES[number % len(SIZES)]
         heights = heights_of(kind, across, number)
         indenter = Indenter(heights, 1.0, 3.0 if kind == "rectangles" else 1.0)
-        events = march_events(indenter, until_fraction=0.5)
+        events = newtonian_events(indenter, until_fraction=0.5)
         for place, (name, medium) in enumerate(SPRINGS_AND_DASHPOTS.items()):
             random = np.random.default_rng([54, number, across, place])
             rigid = name in ("newtonian", "kelvin-voigt")
@@ -117,7 +117,7 @@ def test_kinetics_is_the_limit_of_march(name, control):
     """March, as a row with the same steps, is extrapolated to steps of length 0; its error is of second order."""
     across, parts = (17, 4096) if COUNT else (9, 1024)
     indenter, medium = Indenter(heights_of("self-affine 0.7", across, 1), 1.0), SPRINGS_AND_DASHPOTS[name]
-    curve, events = indent(indenter, tolerance=1e-11, until_fraction=1.0), march_events(indenter)
+    curve, events = indent(indenter, tolerance=1e-11, until_fraction=1.0), newtonian_events(indenter)
     row = events.depth, np.diff(events.resistance, prepend=0.0)
     scale = 0.5 * (curve.depth[-1] if control == "depth" else curve.force[-1])
     load = Load([0, 1, 1.5, 2.5, 3.3, 3.3, 4.0], **{control: scale * np.array([0, 1, 1, 0.2, 0.8, 0.5, 0.1])})

@@ -159,7 +159,7 @@ def test_a_load_is_a_force_or_a_depth():
 
 
 @pytest.mark.parametrize("tolerance", [1.0, 1e-13])
-@pytest.mark.parametrize("scheme", ["explicit", "heun", "implicit"])
+@pytest.mark.parametrize("scheme", ["explicit", "implicit"])
 def test_steps_accept_the_same_tolerances_as_contacts(scheme, tolerance):
     with refused("time steps: tolerance"):
         newtonian_steps(DISC, [1e-16], scheme=scheme, tolerance=tolerance)

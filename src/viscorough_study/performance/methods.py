@@ -8,7 +8,6 @@ cost.
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
@@ -67,16 +66,15 @@ def _events(problem, fraction):
     return problem.force / events.resistance[events.event_at(problem.force)], events.impulse.size
 
 
-def _steps(scheme, problem, number):
+def _steps(problem, number):
     """Compute the velocities by integration of the viscous problem in time steps, and by interpolation between them.
 
-    scheme : scheme of `newtonian_steps`
     number : number of steps; the impulses ∫F dt/η at the ends of the steps are in equal ratios
     """
     ends = np.geomspace(1e-4 * problem.force[0], problem.force[-1] * (1 + 1e-12), number)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AccuracyWarning)  # the error of too few steps is measured, too
-        steps = newtonian_steps(problem.indenter, ends, scheme=scheme)
+        steps = newtonian_steps(problem.indenter, ends, scheme="explicit")
     resistance = np.exp(np.interp(np.log(problem.force), np.log(ends), np.log(steps.resistance)))
     return problem.force / resistance, steps.impulse.size
 
@@ -121,8 +119,7 @@ METHODS = (
     Method("path, automatic levels", "path", "tolerance", TOLERANCES, _automatic),
     Method("path, at the depths", "path", "tolerance", FINE_TOLERANCES, _at_levels),
     Method("events", "marching", "contact fraction", (1.0,), _events, 65),
-    Method("explicit, logarithmic steps", "marching", "steps", STEPS, partial(_steps, "explicit"), 257),
-    Method("heun, logarithmic steps", "marching", "steps", STEPS, partial(_steps, "heun"), 257),
+    Method("explicit, logarithmic steps", "marching", "steps", STEPS, _steps, 257),
     Method("implicit", "marching", "tolerance", (1e-2, 1e-4, 1e-6, 1e-8), _implicit, 257),
     Method("MDR", "model", "points", tuple(2**n for n in range(6, 23, 2)), _reduction),
     Method("Eq. 12 without Γ", "model", "gamma", (0,), _law, rough_only=True),

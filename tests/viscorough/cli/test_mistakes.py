@@ -121,7 +121,7 @@ MISTAKES = [
     (f"{GENERATE} --elements 5 --unit 1 --rms '2 um'", f"--rms 2 um: {NO_UNIT}"),
     (f"{MARCH} events", "one of --times and --force-history is needed"),
     (f"{MARCH} implicit --times 1 --until-fraction 0.1", "--until-fraction is not for"),
-    (f"{MARCH} heun --times 1", "'heun' is not one of 'events', 'implicit'"),
+    (f"{MARCH} euler --times 1", "'euler' is not one of 'events', 'implicit'"),
     (f"{MARCH} events --medium medium.yaml --times 1 --viscosity 2", "--medium replaces --viscosity"),
     (f"{MARCH} events --force-history none.csv --force 1", "--force-history replaces --force"),
     (f"{MARCH} implicit --force-history force.csv -o link.csv", "would replace the force history"),

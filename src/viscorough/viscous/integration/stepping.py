@@ -4,7 +4,7 @@ This module does not use the correspondence with the elastic problem. As in the 
 replaces the time. For a given contact set, the ratio of velocity and force does not depend on the force. Therefore
 steps of the impulse are valid for every force F(t) ≥ 0.
 
-The explicit schemes keep the contact set during a step. So elements that should come into contact in this step overlap
+The explicit scheme keeps the contact set during a step. So elements that should come into contact in this step overlap
 the surface at its end. The implicit scheme requires a contact without overlap at the end of the step.
 """
 
@@ -19,7 +19,6 @@ from viscorough.basics import units
 from viscorough.basics.arrays import ReadOnlyArrays, increasing, real_number
 from viscorough.basics.errors import AccuracyWarning, ConvergenceError
 from viscorough.basics.summaries import unit_power
-from viscorough.basics.types import Progress
 from viscorough.contact.gap_map import gap_map
 from viscorough.contact.grid.solver import GridSolver
 from viscorough.contact.options import DEFAULT
@@ -30,8 +29,8 @@ from viscorough.viscous.integration.elements import elements_of_map
 # If the ratio of overlap and depth exceeds this number, a warning is given. The relative error of the depth is about as
 # large as this ratio.
 _WARN_OVERLAP = 0.01
-# Largest depth that the explicit schemes allow, as a share of the largest floating-point number in the precision of
-# their arrays.
+# Largest depth that the explicit scheme allows, as a share of the largest floating-point number in the precision of its
+# arrays.
 _LARGEST_SHARE = 1e-8
 # Newton's method finds the depth of an implicit step. It ends when the relative error of the impulse is at most
 # _IMPULSE_ACCURACY times the tolerance of the contact problem, or after _MAX_NEWTON_ITERATIONS iterations.
@@ -72,19 +71,14 @@ def newtonian_steps(
     *,
     scheme: str = "explicit",
     tolerance: float = 1e-6,
-    progress: Progress | None = None,
 ) -> Steps:
     """Compute the penetration of a rigid indenter into a linearly viscous half-space by steps of the impulse ∫F dt/η.
 
     The surface has the deflection w, K is the matrix of influence coefficients of elements of side d, and ′ is the
-    derivative with respect to the impulse. There are three schemes:
+    derivative with respect to the impulse. There are two schemes:
 
     - "explicit" (forward Euler) advances with u′ = 1/(4π d Σq) and w′ = u′ K q, where K q = 1 on the elements that
       touch or overlap the surface at the start of the step. Its error is of first order in the steps.
-    - "heun" advances with the mean of two velocities: at the start of the step, and at its end as predicted by an
-      explicit step. With equal steps it is more accurate than "explicit" (measured: `make speed`,
-      results/tables/methods.csv). Its error is of first order, too, since the velocity jumps at contact events within a
-      step.
     - "implicit" (backward Euler) solves a contact problem in every step, for the surface in its current shape with the
       gaps e: ΔP ≥ 0, e + KΔP − Δu ≥ 0, and ΔP (e + KΔP − Δu) = 0 at every element, where 4π d ΣΔP is the impulse of the
       step. This is exact for steps of any size, because the contact only grows.
@@ -96,11 +90,9 @@ def newtonian_steps(
     impulses : array_like
         Impulses ∫F dt/η at the ends of the steps, positive and increasing [length²]. The first step starts at zero.
     scheme : str, optional
-        "explicit", "heun" or "implicit".
+        "explicit" or "implicit".
     tolerance : float, optional
         Tolerance of the contact problems, like the tolerance of `indent`.
-    progress : Progress, optional
-        Function that is called after each step, with the share of the steps that is done.
 
     Returns
     -------
@@ -128,8 +120,8 @@ def newtonian_steps(
     >>> bool(steps.depth[0] < steps.depth[1])
     True
     """
-    if scheme not in SCHEMES:
-        raise ValueError(f"time steps: scheme must be one of {', '.join(SCHEMES)}, not {scheme!r}")
+    if scheme not in _INTEGRATORS:
+        raise ValueError(f"time steps: scheme must be one of {', '.join(_INTEGRATORS)}, not {scheme!r}")
     scale, unit = elements_of_map(indenter, "time steps").units.stiffness, indenter.length_unit
     tolerance = real_number("time steps: tolerance", tolerance)
     if not 1e-12 <= tolerance <= 0.1:
@@ -141,8 +133,6 @@ def newtonian_steps(
     for step in np.diff(impulses / scale, prepend=0.0):
         integrator.step(step)
         rows.append((integrator.depth, integrator.resistance, integrator.count, integrator.overlap))
-        if progress:
-            progress(len(rows) / impulses.size)
     depth, resistance, count, overlaps = np.array(rows).T
     if overlaps.max() > _WARN_OVERLAP:
         warnings.warn(
@@ -215,35 +205,6 @@ class _Explicit:
             raise ConvergenceError(f"time steps: tension at depth {self.depth:g}; contact would open")
 
 
-class _Heun(_Explicit):
-    """State of surface and indenter in Heun's scheme.
-
-    The scheme advances with the mean of the velocities at both ends of a step. An explicit step predicts the velocity
-    at the end of the step.
-    """
-
-    def step(self, impulse: float) -> None:
-        """Advance by one step; `impulse` is the impulse of the step divided by 4π d."""
-        self._check_depth(self.depth + impulse / self.resistance)
-        start_velocity, start_gap = 1 / self.resistance, self._tangent_gap / self.resistance
-        predicted = self._inside | (self._gap + impulse * start_gap <= 0)
-        if np.array_equal(predicted, self._inside):
-            super().step(impulse)
-            return
-        inside, start = self._inside, (self._tangent.copy(), self._tangent_gap.copy(), self.resistance)
-        self._inside = predicted
-        self._solve_flat_punch()
-        self.depth += 0.5 * impulse * (start_velocity + 1 / self.resistance)
-        self._gap += 0.5 * impulse * (start_gap + self._tangent_gap / self.resistance)
-        touching = inside | (self._gap <= 0)
-        # some predicted elements do not touch, so their q should be 0: restore the old q
-        if np.any(predicted & ~touching):
-            self._tangent, self._tangent_gap, self.resistance = start
-        if not np.array_equal(touching, predicted):
-            self._inside = touching
-            self._solve_flat_punch()
-
-
 class _Implicit:
     """State of surface and indenter in the implicit scheme; impulses are divided by 4π d, with elements of side d."""
 
@@ -275,5 +236,4 @@ class _Implicit:
         self.overlap = contact.residual * depth_step / self.depth
 
 
-_INTEGRATORS: dict[str, Any] = {"explicit": _Explicit, "heun": _Heun, "implicit": _Implicit}
-SCHEMES = tuple(_INTEGRATORS)
+_INTEGRATORS: dict[str, Any] = {"explicit": _Explicit, "implicit": _Implicit}

@@ -34,20 +34,6 @@ def test_implicit_steps_find_depths_at_jumps_of_the_force():
     np.testing.assert_allclose(steps.depth[-1], sphere.mdr_profile(0.45), rtol=1e-2)
 
 
-@pytest.mark.filterwarnings("ignore:time steps. with these steps the indenter overlaps")
-def test_heun_steps_are_more_accurate_than_explicit_ones(events):
-    errors = {"explicit": [], "heun": []}
-    for steps in (32, 64, 128, 256):
-        impulses = np.geomspace(events.impulse[1] / 10, events.impulse[700], steps)
-        for scheme, scheme_errors in errors.items():
-            result = newtonian_steps(DISC, impulses, scheme=scheme)
-            scheme_errors.append(np.sqrt(np.mean((result.depth / events.depth_at(impulses) - 1) ** 2)))
-    ratio = np.array(errors["heun"]) / errors["explicit"]
-    assert ratio.max() < 0.8
-    assert np.exp(np.mean(np.log(ratio))) < 0.5
-    assert errors["heun"][-1] < 0.2 * errors["heun"][0]
-
-
 def test_long_explicit_steps_overlap_the_surface_deeply(events):
     """The scheme fails as known, warns, and reports the overlap."""
     with pytest.warns(AccuracyWarning, match=r"overlaps the surface by up to \d"):
@@ -58,7 +44,7 @@ def test_long_explicit_steps_overlap_the_surface_deeply(events):
 
 def test_invalid_arguments_are_refused():
     for change, message in (
-        ({"scheme": "magic"}, "scheme must be one of explicit, heun, implicit"),
+        ({"scheme": "magic"}, "scheme must be one of explicit, implicit"),
         ({"impulses": [2.0, 1.0]}, "each larger than the one before"),
         ({"indenter": Indenter(np.zeros(3), 1.0)}, "two-dimensional"),
     ):
@@ -67,13 +53,13 @@ def test_invalid_arguments_are_refused():
             newtonian_steps(arguments.pop("indenter"), arguments.pop("impulses"), **arguments)
 
 
-@pytest.mark.parametrize(("scheme", "tolerance"), [("explicit", 1e-6), ("heun", 5e-2)], ids=["double", "single"])
-def test_depths_that_overflow_are_refused(scheme, tolerance):
+@pytest.mark.parametrize("tolerance", [1e-6, 5e-2], ids=["double", "single"])
+def test_depths_that_overflow_are_refused(tolerance):
     """A deep indenter touches no surface beyond the map. Depths that overflow are refused."""
     indenter = Indenter(np.random.default_rng(0).random((3, 3)), 1.0)
     with pytest.warns(AccuracyWarning):
-        steps = newtonian_steps(indenter, [1.0, 1e31], scheme=scheme, tolerance=tolerance)
+        steps = newtonian_steps(indenter, [1.0, 1e31], tolerance=tolerance)
     assert steps.contact_count[-1] == 9
     assert steps.depth[-1] > 1e30
     with pytest.raises(ValueError, match="the largest that is allowed"):
-        newtonian_steps(indenter, [1.0, 1e305], scheme=scheme, tolerance=tolerance)
+        newtonian_steps(indenter, [1.0, 1e305], tolerance=tolerance)

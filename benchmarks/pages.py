@@ -54,7 +54,9 @@ def blocks():
     """Return {name: text} of all blocks."""
     table = published_claims()
     return {
-        "short answer": paragraph(f"**{short_answer(table)}**"),
+        "short answer": "".join(
+            textwrap.fill(f"- {text}", 120, subsequent_indent="  ") + "\n" for text in short_answer(table)
+        ),
         "counts": paragraph(counts()),
         "answer": paragraph(f"**{answer(table)}**") + "\n" + paragraph(reasons(table)),
         "results": results_table(table),

@@ -51,9 +51,12 @@ def tex(text):
 
 
 def formulas(text):
-    """Return plain text as HTML in which the formulas of `TYPESET` are typeset."""
+    """Return plain text as HTML in which the formulas of `TYPESET` are typeset, and no line breaks at " = "."""
     parts = re.split("(" + "|".join(map(re.escape, TYPESET)) + ")", text)
-    return Markup("").join(tex(TYPESET[part]) if part in TYPESET else part for part in parts)
+    return Markup("").join(
+        tex(TYPESET[part]) if part in TYPESET else part.replace(" = ", "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}")
+        for part in parts
+    )
 
 
 def number(value, scale=1, unit=""):

@@ -43,7 +43,7 @@ def answer(table):
 
 
 def short_answer(table):
-    """Return the answer in at most three short sentences, from a table of verdicts (verdicts.claims.judge).
+    """Return the answer as a list of at most three short sentences, from a table of verdicts (verdicts.claims.judge).
 
     They state the equivalence and the collapse, the exponent by boundary elements, and what fails of the prefactor.
     Claims that the data do not decide are left out, except the claim on the collapse.
@@ -52,17 +52,13 @@ def short_answer(table):
     collapse = COLLAPSE[verdicts["collapse"]]
     if verdicts["equivalence"] and verdicts["collapse"]:
         collapse = (
-            "The viscous problem follows exactly from the elastic contact, a close relation that the paper shows by "
-            "Radok's principle, and on the paper's grid the mean curves of each Hurst exponent H collapse for all "
-            "forces, viscosities, sizes and rms heights"
+            "As the paper says, the viscous problem follows from the elastic one, and the curves of each Hurst "
+            "exponent H collapse for all forces, viscosities, sizes and rms heights"
         )
     cases, parts = _exponents(table, "beta", "discs"), []
     if holding := _hursts(cases, HELD):
         within = np.ceil(100 * max(abs(case["difference"]) for case in cases.values() if case["verdict"] in HELD)) / 100
-        parts.append(
-            f"differs from H/(1 + H) by at most {within:.2f} at H = {_joined(holding)} (the paper: “at least for "
-            "H > 0.4”)"
-        )
+        parts.append(f"is H/(1 + H) within {within:.2f} at H = {_joined(holding)} (the paper: “at least for H > 0.4”)")
     small = table.loc[table["claim"] == "exponent_small_hurst", "case"].map(_hurst)
     for sign, word in ((1, "larger"), (-1, "smaller")):
         apart = {
@@ -71,15 +67,12 @@ def short_answer(table):
             if case["verdict"] == "not reproduced" and sign * case["difference"] > 0
         }
         unclaimed = ", where it claims nothing" if set(apart) <= set(small) else ""
-        parts += [f"is {word} {_joined(list(apart.values()))}{unclaimed}"] if apart else []
-    failing = ["the prefactor differs from the approximate one of Eq. 12"] if verdicts["master_curve"] is False else []
-    if verdicts["gamma"] is False:
-        failing.append(
-            "the factor 1/Γ(2 − α) of Eqs. 7 to 9 does not follow, but changes neither exponent nor collapse"
-        )
-    exponent = f"In their middle part the exponent {_joined(parts, comma=True)}" if parts else ""
-    sentences = [collapse, exponent, _joined(failing or [""], comma=True)]
-    return " ".join(f"{sentence[0].upper()}{sentence[1:]}." for sentence in sentences if sentence)
+        parts += [f"{word} {_joined(list(apart.values()))}{unclaimed}"] if apart else []
+    exponent = f"The exponent of the power law in time {_joined(parts, comma=True)}" if parts else ""
+    failing = ["the prefactor of Eq. 12"] if verdicts["master_curve"] is False else []
+    failing += ["the factor 1/Γ(2 − α)"] if verdicts["gamma"] is False else []
+    unconfirmed = f"Not confirmed: {_joined(failing)}; the exponent does not depend on them" if failing else ""
+    return [f"{sentence}." for sentence in (collapse, exponent, unconfirmed) if sentence]
 
 
 def _outcome(verdict):

@@ -225,8 +225,8 @@ def _kept_numbers(name: str, values: Any) -> NDArray[Any]:
     Whole numbers and numbers in single precision keep their type. All other numbers are converted to double precision.
     """
     numbers = real_numbers(name, values)
-    array = read_only(values)
-    return array if array.dtype.kind in "iu" or array.dtype == np.float32 else numbers
+    kept = np.ma.getdata(values, subok=False).dtype
+    return read_only(values) if kept.kind in "iu" or kept == np.float32 else numbers
 
 
 def _truth_values(name: str, values: Any) -> Mask:

@@ -47,12 +47,13 @@ def media_of_batches(curves, *, discs, rms_convention, cases, times, force):
     ensembles = {}
     for batch in curves:
         values = {name: variable.values for name, variable in batch.variables.items()}
-        read, heights = unstack_curves(batch), values[f"rms_{rms_convention}"]
+        heights = values[f"rms_{rms_convention}"]
+        chosen = np.flatnonzero(np.isin(values["case"].astype(str), discs))
         diameter, until_x = (np.broadcast_to(values[name], heights.shape) for name in ("diameter", "until_x"))
         groups = ensembles.setdefault(values["hurst"].item(), {})
-        for i in np.flatnonzero(np.isin(values["case"].astype(str), discs)):
+        for i, curve in zip(chosen, unstack_curves(batch, chosen), strict=True):
             joined, rms, _ = groups.get(until_x[i], ([], [], None))
-            groups[until_x[i]] = [*joined, read[i]], [*rms, heights[i]], diameter[i]
+            groups[until_x[i]] = [*joined, curve], [*rms, heights[i]], diameter[i]
     ensembles = {hurst: list(groups.values()) for hurst, groups in ensembles.items() if groups}
     return media_table(ensembles, named_media(cases), force=force, times=abscissa(**times))
 

@@ -10,7 +10,6 @@ fits.conventions select rows and convert ζ to the law with this factor.
 """
 
 import logging
-from itertools import product
 
 import numpy as np
 import pandas as pd
@@ -20,7 +19,7 @@ from viscorough.law.calibrated_law import COLUMNS as CALIBRATION
 from viscorough_study.ensembles.pool import elements_across, ensembles, select
 from viscorough_study.fits.conventions import FITTED, GAMMA, fits, interval_columns, source_values, zeta_scale
 from viscorough_study.fits.intervals import described, described_ends, three_columns, with_interval
-from viscorough_study.fits.mdr_lambda import match_lambda
+from viscorough_study.fits.mdr_lambda import match_lines
 from viscorough_study.fits.power_law import fit_power_law, in_window, log_means, named_windows
 
 # {column: (long_name, units)}, in the order of the table. Columns of text have the units None.
@@ -108,17 +107,24 @@ def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **lim
         selected = ensemble.sel(rms_convention=rms_convention)
         ensemble_columns = {"source": source, "case_group": case_group, "hurst": ensemble["hurst"].item()}
         ensemble_columns |= {"rms_convention": rms_convention, "realizations": selected.sizes["realization"]}
-        for average, (rule, window) in product(FITTED["average"], named_windows(selected, **limits).items()):
-            fitted = _fit(selected, lines, window, average=average, resamples=resamples, seed=seed) if window else {}
-            row = {"decades": 0.0, **ensemble_columns, "average": average, "window_rule": rule, **fitted}
-            rows.append({name: row.get(name, np.nan) for name in COLUMNS})
+        windows = named_windows(selected, **limits)
+        for average in FITTED["average"]:
+            bootstrap = {"average": average, "resamples": resamples, "seed": seed}
+            match = None
+            if lines is not None and any(windows.values()):
+                velocities = (ensemble["velocity"].values for ensemble in (selected, lines.isel(rms_convention=0)))
+                match = match_lines(selected["x"].values, *velocities, **bootstrap)
+            for rule, window in windows.items():
+                fitted = _fit(selected, match, window, **bootstrap) if window else {}
+                row = {"decades": 0.0, **ensemble_columns, "average": average, "window_rule": rule, **fitted}
+                rows.append({name: row.get(name, np.nan) for name in COLUMNS})
     return rows
 
 
-def _fit(ensemble, lines, window, **options):
+def _fit(ensemble, match, window, **options):
     """Fit β and ζ of an ensemble with a single definition of the rms height in one window; return {column: value}.
 
-    lines : ensemble of lines from which λ (see the module) is found, or None
+    match : LineMatch of the ensemble and of the lines from which λ (see the module) is found, or None
     window : (X_low, X_high)
     options : average, resamples and seed of the fit
     """
@@ -130,8 +136,8 @@ def _fit(ensemble, lines, window, **options):
         _, *ends = with_interval(zeta_scale(betas, gamma) * zetas, len(velocity))
         columns |= dict(zip(interval_columns(gamma), ends, strict=True))
     columns |= _paper_exponent(ensemble, betas, zetas, window, options["average"])
-    if lines is not None:
-        columns |= three_columns("lambda", match_lambda(x, velocity, lines["velocity"].values[0], window, **options))
+    if match is not None:
+        columns |= three_columns("lambda", match.lambda_in(window))
     return columns
 
 

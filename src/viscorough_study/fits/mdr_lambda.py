@@ -30,11 +30,13 @@ class LineMatch:
     x : X, shape (abscissae,), logarithmically uniform
     discs, lines : ln(y/X), where y is the mean of vt/h over discs or lines; shape (1 + resamples, abscissae). The first
         row belongs to the ensemble, the other rows to bootstrap resamples. `lines` is nan at X that not all lines reach
+    realizations : number of discs or number of lines, whichever is smaller; it determines the width of intervals
     """
 
     x: np.ndarray
     discs: np.ndarray
     lines: np.ndarray
+    realizations: int
 
     def stretch_at(self, x):
         """Return ln s of the factor s that matches the lines to the discs at each X.
@@ -59,6 +61,14 @@ class LineMatch:
     def lambda_at(self, x):
         """Return λ = π s² at each X, with the factor s that matches lines to discs; shape as in `stretch_at`."""
         return np.pi * np.exp(2 * self.stretch_at(x))
+
+    def lambda_in(self, window):
+        """Return λ at the geometric centre of a window of X, (X_low, X_high), with its 95 % interval.
+
+        The result is (value, low, high). λ is nan if the mean curve of the lines does not reach the stiffness of the
+        discs.
+        """
+        return with_interval(self.lambda_at(np.sqrt(window[0] * window[1]))[:, 0], self.realizations)
 
     def deviation(self, stretch, chosen):
         """Return ln(vt/h of the lines with the factor s) − ln(vt/h of the discs) at chosen abscissae.
@@ -99,15 +109,4 @@ def match_lines(x, discs, lines, *, average, resamples, seed):
     disc_curves = log_means(discs, average, resamples, generator) - log_x
     line_curves = log_means(lines, average, resamples, generator) - log_x
     line_curves = np.where(np.isfinite(lines).all(axis=0), line_curves, np.nan)
-    return LineMatch(x, disc_curves, line_curves)
-
-
-def match_lambda(x, discs, lines, window, **options):
-    """Return λ (see the module) at the geometric centre of a window of X, with its 95 % interval: (value, low, high).
-
-    x, discs, lines, options : arguments of `match_lines`
-    λ is nan if the mean curve of the lines does not reach the stiffness of the discs. Only abscissae that all lines
-    reach are used.
-    """
-    match = match_lines(x, discs, lines, **options)
-    return with_interval(match.lambda_at(np.sqrt(window[0] * window[1]))[:, 0], min(len(discs), len(lines)))
+    return LineMatch(x, disc_curves, line_curves, min(len(discs), len(lines)))

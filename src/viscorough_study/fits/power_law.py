@@ -169,5 +169,5 @@ def log_means(velocity, average, resamples, generator):
     values = np.where(defined, np.log(velocity) if average == "geometric" else velocity, 0)
     # At an abscissa that none of the curves in a resample reaches, the mean of this resample is nan.
     with np.errstate(invalid="ignore", divide="ignore"):
-        mean = (weights @ values) / (weights @ defined)
+        mean = (weights @ values) / (n if defined.all() else weights @ defined)
     return mean if average == "geometric" else np.log(mean)

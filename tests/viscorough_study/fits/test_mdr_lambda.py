@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from viscorough_study.ensembles.averages import abscissa
-from viscorough_study.fits.mdr_lambda import match_lambda, match_lines
+from viscorough_study.fits.mdr_lambda import match_lines
 
 x = abscissa(1e-7, 10, 20)
 BOOTSTRAP = {"resamples": 200, "seed": 1}
@@ -23,7 +23,7 @@ def test_fit_returns_the_lambda_of_stretched_lines():
     s = 10 ** (steps / 20)
     lines = scattered(0.4, 12, seed=8) * (1 + 0.5 * x)  # not a power law
     discs = s * np.roll(lines, steps, axis=1)
-    value, low, high = match_lambda(x, discs, lines, (1e-4, 1e-2), average="arithmetic", **BOOTSTRAP)
+    value, low, high = match_lines(x, discs, lines, average="arithmetic", **BOOTSTRAP).lambda_in((1e-4, 1e-2))
     assert value == pytest.approx(np.pi * s**2, rel=1e-9)
     assert low < value < high
     match = match_lines(x, discs, lines, **GEOMETRIC)

@@ -6,7 +6,7 @@ calibrated penetration law of the library. The law has no error for a Hurst expo
 
 The error of a model is its deviation from the full map, the map of all points of the same surface. The error of the
 velocity v is the root mean square of ln(v/v_full) at X = F/(4GhL) from 0.01 to 3, uniform in ln X, and over several
-surfaces. The errors of the contact area, and of the creep compliance that is identified from a record of the depth, are
+surfaces. The errors of the contact area, and of the creep compliance that follows from a record of the depth, are
 defined in the same way. The error of pressures is only the error of the solver on a given grid, because pressures of a
 self-affine surface have no limit as the grid becomes finer.
 """
@@ -26,7 +26,6 @@ from viscorough.law.calibrated_law import law_covers, penetration_law
 from viscorough.mdr import reduce
 from viscorough.media.kinds import StandardLinearSolid
 from viscorough.surfaces.self_affine import self_affine_disc, self_affine_line
-from viscorough.viscous.identification import identify_medium
 from viscorough.viscous.kinetics import kinetics
 from viscorough_study.performance import timing
 from viscorough_study.run.kernels import compile_kernels
@@ -173,14 +172,15 @@ def _deviation(values, truth):
 
 
 def _compliance_error(curve, record, force):
-    """Identify the creep compliance from recorded depths and a loading curve; return the error of the compliance.
+    """Compute the creep compliance from recorded depths and a loading curve; return the error of the compliance.
+
+    At each time, the elastic force F/G at the recorded depth is the creep compliance times the force.
 
     record : motion with the depths under the constant force `force`
     """
     reached = record.depth <= curve.depth[-1]
-    found = identify_medium(curve, force, record.time[reached], record.depth[reached])
-    here = found.time > 0
-    return _deviation(found.compliance[here], SOLID.creep_compliance(found.time[here]))
+    elastic_force, _ = curve.at_depth(record.depth[reached])
+    return _deviation(elastic_force / force, SOLID.creep_compliance(record.time[reached]))
 
 
 def _reduced_velocity(hurst, points, force, seed):

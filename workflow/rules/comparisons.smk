@@ -83,8 +83,9 @@ rule compare_reduction:
     resources:
         mem_mb=1000,
     params:
-        **chosen("discs", "elements", "realizations", "tolerance"),
+        **chosen("discs", "elements", "tolerance"),
         **config["reduction"],
+        realizations=config["variants"]["realizations"],
         hursts=config["discs"]["hurst"],
         seed=config["seed"],
         source=digest("compare_reduction"),

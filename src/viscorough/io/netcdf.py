@@ -134,7 +134,9 @@ def write(content: Content, path: FilePath) -> None:
             # The CF conventions forbid missing values in a coordinate, so coordinates get no fill value.
             fill = np.nan if values.dtype.kind == "f" and name not in dimensions else None
             is_large = values.size >= COMPRESSED_FROM
-            stored = file.createVariable(name, kind, dimensions, fill_value=fill, zlib=is_large, complevel=COMPRESSION_LEVEL)
+            stored = file.createVariable(
+                name, kind, dimensions, fill_value=fill, zlib=is_large, complevel=COMPRESSION_LEVEL
+            )
             stored.setncatts(attributes)
             stored[...] = values
 

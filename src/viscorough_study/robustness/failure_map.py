@@ -45,44 +45,60 @@ def map_failures(*, seed, across, grids, hurst_min):
 def failure_map(cases, methods=METHODS):
     """Apply every method to every stress-test case; return a pandas.DataFrame with the columns of `COLUMNS`.
 
-    cases : iterable of StressCase; methods : {name: (function, limit)}, see stress_solutions.METHODS
+    cases : iterable of StressCase; methods : {name: (function, limit, parameters)}, see stress_solutions.METHODS
     """
-    rows, solutions = [], {}
+    rows, solutions, answers = [], {}, {}
     for case in cases:
         logging.info("%s: %s", case.group, case.name)
         # Cases with the same indenter and contact fractions share one reference solution.
         question = (case.indenter.heights.tobytes(), case.indenter.spacing, case.fractions)
         if question not in solutions:
             solutions[question] = reference_solution(case)
-        for name, (ratios, limit) in methods.items():
-            cell = _cell(case, solutions[question], ratios, limit(case), is_model=name in MODELS)
+        for name, (ratios, limit, parameters) in methods.items():
+            # Such cases also share the answer of a method if they agree in the further parameters that it uses.
+            asked = name, *question, *(getattr(case, parameter) for parameter in parameters)
+            if asked not in answers:
+                answers[asked] = _answer(case, solutions[question], ratios)
+            cell = _cell(case, solutions[question], *answers[asked], limit(case), is_model=name in MODELS)
             rows.append((case.group, case.name, name, *cell))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
-def _cell(case, solution, ratios, limit, *, is_model):
-    """Apply one method to one case; return its error, limit, verdict and reason.
+def _answer(case, solution, ratios):
+    """Apply one method to one case; return its error, its messages, and whether it refused the case.
 
-    solution : reference solution of the case; limit : largest error for which the method holds
+    solution : reference solution of the case
     ratios : function of case and solution that returns the ratios of the method's results to the reference solution
-    is_model : True for an approximate model
     """
-    messages, error, verdict = [], 1.0, ""
+    messages, error, refused = [], 1.0, False
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", AccuracyWarning)
         try:
-            # Load raises ValueError for tensile forces.
-            Load(np.arange(len(case.force), dtype=float), force=np.array(case.force))
             error = float(np.abs(np.nan_to_num(ratios(case, solution), nan=0.0) - 1).max())
         except (ValueError, ConvergenceError, MemoryError) as reason:
-            messages, verdict = [str(reason)], "refused"
+            messages, refused = [str(reason)], True
     messages += [str(warning.message) for warning in caught if issubclass(warning.category, AccuracyWarning)]
+    return error, messages, refused
+
+
+def _cell(case, solution, error, messages, refused, limit, *, is_model):
+    """Judge the answer of one method in one case; return its error, limit, verdict and reason.
+
+    solution : reference solution of the case; limit : largest error for which the method holds
+    error, messages, refused : answer of the method, from `_answer`
+    is_model : True for an approximate model
+    """
+    try:
+        Load(np.arange(len(case.force), dtype=float), force=np.array(case.force))
+    except ValueError as reason:  # a tensile force
+        error, messages, refused = 1.0, [str(reason)], True
+    verdict = "refused" if refused else ""
     if not verdict and error <= limit:
         verdict = "model" if is_model else "holds"
     elif not verdict:
         limits = {case.stated: is_model, FEW_ELEMENTS: is_model and solution.count[0] < MIN_ELEMENTS}
         stated = [text for text, applies in limits.items() if text and applies]  # documented reasons that apply
         verdict = "warned" if messages else "stated" if stated else "unnoticed"
-        messages += stated
+        messages = messages + stated
     reason = " ".join("; ".join(dict.fromkeys(messages)).split())
     return error, limit, verdict, reason

@@ -8,8 +8,8 @@ at the given forces or impulses.
 """
 
 import warnings
-from dataclasses import dataclass, replace
-from functools import partial
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
 from itertools import accumulate, pairwise
 
 import numpy as np
@@ -24,6 +24,7 @@ from viscorough.mdr import reduce
 from viscorough.media.creep_response import creep_response
 from viscorough.media.kinds import Newtonian
 from viscorough.media.load import Load
+from viscorough.surfaces.indenter import Indenter
 from viscorough.surfaces.self_affine import self_affine_line
 from viscorough.viscous.integration.events import newtonian_events
 from viscorough.viscous.integration.march import march
@@ -52,12 +53,22 @@ LIMIT_EVENTS, LIMIT_STEPS, LIMIT_MODEL = 1e-9, 0.02, 1.0
 class Solution:
     """Reference solution of a stress-test case; all arrays have the shape (depths,).
 
+    indenter : indenter of the case
     depth : prescribed depths [length]; force : F/G [length²]; count : number of elements in contact
+    motions : reference motions of cases with a medium, {(medium, load): depths}, computed when they are needed
     """
 
+    indenter: Indenter
     depth: np.ndarray
     force: np.ndarray
     count: np.ndarray
+    motions: dict = field(default_factory=dict)
+
+    @cached_property
+    def events(self):
+        """Integration from contact event to contact event, slightly past the last depth."""
+        fraction = min(1.0, (1.1 * self.count[-1] + 2) / self.indenter.elements)
+        return newtonian_events(self.indenter, until_fraction=fraction)
 
 
 def reference_solution(case):
@@ -73,7 +84,7 @@ def reference_solution(case):
     depths *= BEYOND_FULL_CONTACT if case.fractions[1] > 1 else 1.0
     contacts = accumulate(depths, solver.advance_reduced, initial=solver.unloaded_state())
     _, *levels = ((contact.force, contact.count) for contact in contacts)
-    return Solution(depths * solver.units.length, *np.array(levels).T)
+    return Solution(case.indenter, depths * solver.units.length, *np.array(levels).T)
 
 
 def _depth_of_fraction(solver, fraction, low):
@@ -111,19 +122,12 @@ def _interpolated(case, solution):
     ends = np.minimum(solution.force, curve.force[-1])
     starts = np.append(ends[0], ends[:-1])
     force = starts[:, None] * (ends / starts)[:, None] ** np.linspace(0, 1, INTERPOLATED_FORCES)
-    events = newtonian_events(case.indenter, until_fraction=_last_fraction(case, solution))
-    return curve.at_force(force)[0] / events.depth_at(force)
-
-
-def _last_fraction(case, solution):
-    """Return a contact fraction slightly above the contact fraction at the last depth of the reference solution."""
-    return min(1.0, (1.1 * solution.count[-1] + 2) / case.indenter.elements)
+    return curve.at_force(force)[0] / solution.events.depth_at(force)
 
 
 def _events(case, solution):
     """Compute depths by integration from contact event to contact event; return their ratios to the reference."""
-    events = newtonian_events(case.indenter, until_fraction=_last_fraction(case, solution))
-    return events.depth_at(solution.force) / solution.depth
+    return solution.events.depth_at(solution.force) / solution.depth
 
 
 def _steps(case, solution):
@@ -215,13 +219,16 @@ def _history(case, solution):
 
 
 def _motion_reference(case, solution):
-    times, force = _history(case, solution)
-    load = Load(times, force=force)
-    if (np.diff(load.values) < 0).any():  # the contact recedes while the force falls
-        return _stepped(case, solution, REFERENCE_STEPS)
-    # A contact that grows has the same events in every medium: the creep response replaces the impulse ∫F dt/η.
-    events = newtonian_events(case.indenter, until_fraction=_last_fraction(case, solution))
-    return events.depth_at(creep_response(case.medium.spectrum(load)[0], load))
+    asked = case.medium, case.medium_load
+    if asked not in solution.motions:
+        times, force = _history(case, solution)
+        load = Load(times, force=force)
+        if (np.diff(load.values) < 0).any():  # the contact recedes while the force falls
+            solution.motions[asked] = _stepped(case, solution, REFERENCE_STEPS)
+        else:  # a growing contact has the same events in every medium: the creep response replaces the impulse ∫F dt/η
+            response = creep_response(case.medium.spectrum(load)[0], load)
+            solution.motions[asked] = solution.events.depth_at(response)
+    return solution.motions[asked]
 
 
 def _stepped(case, solution, number):
@@ -247,20 +254,24 @@ def _ratios(depth, reference):
 # ---- list of all methods
 
 
-# {name: (function, limit)}. The function takes a case and its reference Solution, and returns the ratios of its depths
-# or forces to the reference. The limit is a function, too: it takes a case, and returns the largest error for which the
-# method holds.
+# {name: (function, limit, parameters)}. The function takes a case and its reference Solution, and returns the ratios of
+# its depths or forces to the reference. The limit is a function, too: it takes a case, and returns the largest error
+# for which the method holds. Cases with the same Solution and the same values of the parameters have the same ratios.
 METHODS = {
-    "path, dense": (partial(_path, DENSE_ONLY), lambda case: 10 * case.tolerance),
-    "path, grid, double": (partial(_path, DOUBLE_ON_GRID), lambda case: 10 * case.tolerance),
-    "path, grid, single": (partial(_path, GRID_ONLY), lambda case: 10 * case.tolerance),
-    "path, interpolated": (_interpolated, lambda case: max(case.tolerance, FINEST_ACCURACY)),
-    "events": (_events, lambda case: LIMIT_EVENTS),
-    "explicit steps": (_steps, lambda case: LIMIT_STEPS),
-    "media, correspondence": (_by_correspondence, lambda case: max(CURVE_TOLERANCE, FINEST_ACCURACY)),
-    "media, steps": (_by_steps, lambda case: LIMIT_STEPS),
-    "MDR": (_reduction, lambda case: LIMIT_MODEL),
-    "power law": (partial(_power_law, False), lambda case: LIMIT_MODEL),
-    "power law with Γ": (partial(_power_law, True), lambda case: LIMIT_MODEL),
+    "path, dense": (partial(_path, DENSE_ONLY), lambda case: 10 * case.tolerance, ("tolerance",)),
+    "path, grid, double": (partial(_path, DOUBLE_ON_GRID), lambda case: 10 * case.tolerance, ("tolerance",)),
+    "path, grid, single": (partial(_path, GRID_ONLY), lambda case: 10 * case.tolerance, ("tolerance",)),
+    "path, interpolated": (_interpolated, lambda case: max(case.tolerance, FINEST_ACCURACY), ("tolerance",)),
+    "events": (_events, lambda case: LIMIT_EVENTS, ()),
+    "explicit steps": (_steps, lambda case: LIMIT_STEPS, ("steps", "force")),
+    "media, correspondence": (
+        _by_correspondence,
+        lambda case: max(CURVE_TOLERANCE, FINEST_ACCURACY),
+        ("medium", "medium_load"),
+    ),
+    "media, steps": (_by_steps, lambda case: LIMIT_STEPS, ("medium", "medium_load")),
+    "MDR": (_reduction, lambda case: LIMIT_MODEL, ("hurst", "body")),
+    "power law": (partial(_power_law, False), lambda case: LIMIT_MODEL, ("hurst", "body")),
+    "power law with Γ": (partial(_power_law, True), lambda case: LIMIT_MODEL, ("hurst", "body")),
 }
 MODELS = ("MDR", "power law", "power law with Γ")  # methods that are approximate models

@@ -69,7 +69,7 @@ def test_forces_that_pull_are_refused_with_the_reason(table):
 
 def test_a_failure_that_users_are_not_told_of_is_unnoticed():
     """With a limit of zero the path on the grid does not hold, and says nothing."""
-    strict = {"path, grid, double": (METHODS["path, grid, double"][0], lambda case: 0.0)}
+    strict = {"path, grid, double": (METHODS["path, grid, double"][0], lambda case: 0.0, ())}
     table = failure_map([StressCase("", "", self_affine_disc(0.7, 13, seed=1))], strict)
     assert list(table.columns) == list(COLUMNS)
     assert table["verdict"].tolist() == ["unnoticed"]

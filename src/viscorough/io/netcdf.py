@@ -20,9 +20,9 @@ from viscorough.io.unpacking import STORAGE, unpacked
 # s), "velocity" (length per s), or an SI unit such as "N". If the unit of length is not known, SI units become "1".
 Quantities = Mapping[str, tuple[str, int | str]]
 # Variables of at least this many values are compressed. For smaller variables, the chunks that compression needs take
-# more room than compression saves. The fastest level of compression takes half the time of the usual level 4, and files
-# are only a few percent larger.
-COMPRESSED_FROM, COMPRESSION_LEVEL = 4096, 1
+# more room than compression saves. Level 1 takes half the time of the usual level 4, and makes files a few percent
+# larger.
+COMPRESSED_FROM = 4096
 
 
 class Variable(NamedTuple):
@@ -134,9 +134,7 @@ def write(content: Content, path: FilePath) -> None:
             # The CF conventions forbid missing values in a coordinate, so coordinates get no fill value.
             fill = np.nan if values.dtype.kind == "f" and name not in dimensions else None
             is_large = values.size >= COMPRESSED_FROM
-            stored = file.createVariable(
-                name, kind, dimensions, fill_value=fill, zlib=is_large, complevel=COMPRESSION_LEVEL
-            )
+            stored = file.createVariable(name, kind, dimensions, fill_value=fill, zlib=is_large, complevel=1)
             stored.setncatts(attributes)
             stored[...] = values
 

@@ -34,8 +34,8 @@ _SHARE_OF_APPROACH = 0.6
 def contact_at(
     indenter: Indenter,
     *,
-    force: None = None,
-    depth: Scalar | str,
+    force: Scalar | str | None = None,
+    depth: Scalar | str | None = None,
     shear_modulus: Scalar | str | None = None,
     young_modulus: Scalar | str | None = None,
     poisson: float | None = None,
@@ -50,40 +50,8 @@ def contact_at(
 def contact_at(
     indenter: Indenter,
     *,
-    force: Scalar | str,
-    depth: None = None,
-    shear_modulus: Scalar | str | None = None,
-    young_modulus: Scalar | str | None = None,
-    poisson: float | None = None,
-    tolerance: float = 1e-3,
-    progress: Progress | None = None,
-    threads: int = 1,
-    options: SolverOptions = DEFAULT,
-) -> Contact: ...
-
-
-@overload
-def contact_at(
-    indenter: Indenter,
-    *,
-    force: None = None,
-    depth: Several,
-    shear_modulus: Scalar | str | None = None,
-    young_modulus: Scalar | str | None = None,
-    poisson: float | None = None,
-    tolerance: float = 1e-3,
-    progress: Progress | None = None,
-    threads: int = 1,
-    options: SolverOptions = DEFAULT,
-) -> list[Contact]: ...
-
-
-@overload
-def contact_at(
-    indenter: Indenter,
-    *,
-    force: Several,
-    depth: None = None,
+    force: Several | None = None,
+    depth: Several | None = None,
     shear_modulus: Scalar | str | None = None,
     young_modulus: Scalar | str | None = None,
     poisson: float | None = None,

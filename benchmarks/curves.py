@@ -2,7 +2,7 @@
 
     python benchmarks/curves.py --output results/benchmarks.json
 
-The file has one key for each function below: parts, columns, line, rectangles, large_map, curve.
+The file has one key for each function below: over_operator, columns, line, rectangles, large_map, curve.
 Times are medians of repeats in one run. Repeats of compared computations are interleaved. `make bench` runs it.
 """
 
@@ -27,16 +27,6 @@ from viscorough_study.performance import timing
 
 ELEMENTS, UNTIL, UNTIL_X = 257, 0.9, 30.0
 POINTS = 4_000_000  # points of a line
-# {function: name of the part of the computation that it does}
-PARTS_OF_CURVE = {
-    "viscorough.contact.halfspace.operator.Convolution.apply": "operator",
-    "viscorough.contact.preconditioner.Preconditioner.prepare": "preconditioner",
-    "viscorough.contact.preconditioner.Preconditioner.apply": "preconditioner",
-    "viscorough.contact.dense.solve": "dense",
-    "viscorough.contact.dense.follow_events": "dense",
-    "viscorough.contact.grid.solver.GridSolver.__init__": "setup",
-    "viscorough.contact.prescribed_depth.ContactSolver.__init__": "setup",
-}
 # {function: name of the step of the solution that it does}; the steps do not contain each other.
 STEPS_OF_CURVE = {
     "viscorough.contact.halfspace.operator.Convolution.apply": "operator",
@@ -136,23 +126,6 @@ def medians(functions, repeats):
     return timing.interleaved(functions, repeats)
 
 
-def parts():
-    """Return processor seconds of curves and the share of each part: medians over five repeats after a first run."""
-    result = {}
-    for across in (ELEMENTS, 1025):
-        compute = whole_curve(self_affine_disc(0.6, across, seed=1))
-        compute()
-        result[f"curve of a {across} disc"] = pd.DataFrame([shares(compute) for _ in range(5)]).median().to_dict()
-    return result
-
-
-def shares(compute):
-    """Return the processor seconds of a function, and the share of each part."""
-    whole, calls = timed_calls(compute, PARTS_OF_CURVE)
-    shares_of_parts = {part: round(spent / whole, 3) for part, (_, spent) in calls.items()}
-    return {"processor_s": round(whole, 4), **shares_of_parts, "rest": round(1 - sum(shares_of_parts.values()), 3)}
-
-
 def over_operator(hursts, repeats, elements=ELEMENTS):
     """Return the cost of the steps of a curve relative to its half-space operator, for each Hurst exponent.
 
@@ -178,24 +151,24 @@ def over_operator(hursts, repeats, elements=ELEMENTS):
 
 
 def timed_calls(compute, names):
-    """Call a function; return its processor seconds, and {part: (number of calls, processor seconds in all)}.
+    """Call a function; return its processor seconds, and {step: (number of calls, processor seconds in all)}.
 
-    names : {dotted name of a function that is counted: name of its part}
+    names : {dotted name of a function that is counted: name of its step}
     """
     calls = dict.fromkeys(names.values(), (0, 0.0))
 
-    def measured(part, function):
+    def measured(step, function):
         def call(*arguments, **options):
             result, _, processor = timing.timed(partial(function, *arguments, **options))
-            number, seconds = calls[part]
-            calls[part] = number + 1, seconds + processor
+            number, seconds = calls[step]
+            calls[step] = number + 1, seconds + processor
             return result
 
         return call
 
     with contextlib.ExitStack() as patches:
-        for name, part in names.items():
-            patches.enter_context(patch(name, measured(part, pkgutil.resolve_name(name))))
+        for name, step in names.items():
+            patches.enter_context(patch(name, measured(step, pkgutil.resolve_name(name))))
         _, _, whole = timing.timed(compute)
     return whole, calls
 
@@ -205,7 +178,6 @@ def timed_calls(compute, names):
 @output_option
 def main(repeats, output):
     content = {
-        "parts": parts(),
         "over_operator": over_operator((0.1, 0.4, 0.6, 0.9), 3 * repeats),
         "columns": columns((17, 33, 65, 129, 257, 513, 1025), 3 * repeats),
         "line": lines((0.1, 0.6, 0.9), 3 * repeats),

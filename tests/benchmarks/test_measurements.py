@@ -1,18 +1,8 @@
 """The measurements of `make bench`, on small problems."""
 
-from functools import partial
-
 import curves
-import pytest
 
 from viscorough import self_affine_disc
-
-
-def test_every_part_takes_time():
-    """The disc has enough elements for both the dense solver and the grid."""
-    shares = curves.shares(partial(curves.indent, self_affine_disc(0.6, 65, seed=1)))
-    assert all(share > 0 for share in shares.values())
-    assert sum(share for part, share in shares.items() if part != "processor_s") == pytest.approx(1)
 
 
 def test_steps_of_a_curve_are_counted():

@@ -41,7 +41,6 @@ ROOT = Path(__file__).resolve().parents[1]
 ADAPTERS = {
     "ASPHER": (".venv-peers/bin/python", "peers/aspher_adapter.py", "levels"),
     "ASPHER nested": (".venv-peers/bin/python", "peers/aspher_adapter.py", "nested"),
-    "ASPHER active set": (".venv-peers/bin/python", "peers/aspher_adapter.py", "active_set"),
     "ContactMechanics": (".venv-peers/bin/python", "peers/contactmechanics_adapter.py"),
     "SlipPY": (".venv-slippy/bin/python", "peers/slippy_adapter.py"),
     "Tamaas": (".venv-peers/bin/python", "peers/tamaas_adapter.py"),

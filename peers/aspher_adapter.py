@@ -3,8 +3,6 @@
 Called as: python aspher_adapter.py MODE request.npz answer.npz (see exchange.py), with one of these modes:
     levels : projected conjugate gradients (Polonsky & Keer 1999), preconditioned by transforms of the whole grid
     nested : a cascade in single and then double precision; it starts from zero pressure at every level
-    active_set : a cascade of hierarchical operators on the elements that can touch, in single precision: the fastest
-        mode if few elements touch; sides of a power of two give the deepest cascade
 """
 
 import sys
@@ -14,15 +12,12 @@ import numpy as np
 from exchange import answer_request
 
 COARSEST = 32  # least number of points along a side of the coarsest grid
-CASCADES = {
-    "nested": {"backend": "fft", "precision": "float_then_double"},
-    "active_set": {"backend": "h2", "precision": "float", "active_set": True},
-}
+CASCADE = {"backend": "fft", "precision": "float_then_double"}
 MODE = sys.argv[1]
 
 
 class Aspher:
-    """Exact convolution ("fft"), except for the hierarchical operators."""
+    """Solver by exact convolution ("fft")."""
 
     def __init__(self, problem):
         self.problem = problem
@@ -40,8 +35,8 @@ class Aspher:
             start = np.maximum(depth - gap, 0) if start is None else start
             result = self.solver.solve(gap.ravel(), **load, precond="fourier-fft", p_init=start.ravel())
         else:
-            mode = {"coarsest": self.coarsest} | CASCADES[MODE]
-            result = aspher.solve_nested(self.side, gap.ravel(), **self.domain, **load, **mode)
+            cascade = {"coarsest": self.coarsest} | CASCADE
+            result = aspher.solve_nested(self.side, gap.ravel(), **self.domain, **load, **cascade)
         return np.reshape(result.pressure, gap.shape), result.iterations
 
 

@@ -43,7 +43,7 @@ def aspher(tmp_path, monkeypatch):
 
 
 @pytest.mark.usefixtures("aspher")
-@pytest.mark.parametrize("mode", ["levels", "nested", "active_set"])
+@pytest.mark.parametrize("mode", ["levels", "nested"])
 def test_adapter_solves_the_problem_of_the_request(mode, indenter):
     exact = indent(indenter, tolerance=1e-11, depths=[0.1, 0.2, 1.0])
     command = [sys.executable, "peers/aspher_adapter.py", mode]

@@ -27,12 +27,10 @@ class ContactSolver:
         return SimpleNamespace(pressure=self.last, iterations=5)
 
 
-def solve_nested(
-    grid_size, gap, p_nominal, *, domain_size, E_star, coarsest, tol, backend, precision, active_set=False
-):
+def solve_nested(grid_size, gap, p_nominal, *, domain_size, E_star, coarsest, tol, backend, precision):
     """Return the solution on the finest of the grids, whose numbers of points along a side are coarsest * 2^k."""
     assert (grid_size % coarsest, (grid_size // coarsest).bit_count()) == (0, 1)
-    assert (backend, precision, active_set) in {("fft", "float_then_double", False), ("h2", "float", True)}
+    assert (backend, precision) == ("fft", "float_then_double")
     start = np.ones(gap.size)
     result = ContactSolver(grid_size, domain_size, E_star, backend="fft").solve(gap, p_nominal, tol, p_init=start)
     return SimpleNamespace(pressure=result.pressure.ravel(), iterations=result.iterations)

@@ -6,12 +6,11 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from support.contract import refused
-from support.growing_contact import growing_contact
 from support.marching import evented, stepped
 from support.media import SPRINGS_AND_DASHPOTS as MEDIA
 from viscorough import Indenter, Load, indent, kinetics, march, reference, self_affine_disc
 from viscorough.basics.errors import ConvergenceError
-from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Prony, Springpot
+from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Springpot
 
 DISC = Indenter(self_affine_disc(0.7, 65, seed=3).heights, 0.01, 0.02)
 SPRINGY = ["maxwell", "solid", "prony"]
@@ -28,21 +27,6 @@ def largest_force(curve, medium, share=0.8):
     return share * curve.force[-1] / medium.creep_compliance(END)
 
 
-# ---- exact between events
-
-
-@pytest.mark.parametrize("name", MEDIA)
-def test_events_under_a_ramp_a_step_and_a_hold(curve, name):
-    medium = MEDIA[name]
-    times, shape = np.array([0, 0.3, 0.3, 1.0, END]), np.array([0.3, 0.5, 0.6, 0.6, 0.9])
-    force = largest_force(curve, medium) * shape
-    depth, count = growing_contact(DISC, medium, times, force, until_fraction=0.1)
-    expected = kinetics(curve, Load(times, force=force), medium)
-    np.testing.assert_allclose(depth, expected.depth, rtol=1e-10, atol=0)
-    np.testing.assert_array_equal(count[1:], np.searchsorted(curve.depth, depth[1:]))
-    assert count[-1] > 80
-
-
 def test_events_are_for_newtonian_media(curve):
     load = Load([0.0, 1.0], force=[1.0, 1.0])
     for medium in (MEDIA["maxwell"], MEDIA["kelvin-voigt"]):
@@ -54,16 +38,6 @@ def test_events_are_for_newtonian_media(curve):
         march(DISC, Load([0.0, 1.0], depth=[0.0, 1.0]), 1.0, method="events")
     with pytest.raises(ConvergenceError, match="4 elements touch before time 1"):
         march(DISC, Load([0.0, 1.0], force=curve.force[[-1, -1]]), 1.0, method="events", until_fraction=1e-3)
-
-
-@pytest.mark.parametrize("decades", [3, 7])
-def test_events_with_relaxation_times_many_decades_apart(curve, decades):
-    times = np.append(0, np.geomspace(10.0**-decades, 10.0**decades, 9))
-    for relaxed in (0.0, 1e-3, 1.0):
-        medium = Prony(relaxed, [1.0, 3.0, 0.3, 1.0], 10.0 ** np.array([-decades, -1.0, 2.0, decades]))
-        force = np.linspace(0.5, 1, 10) * 0.8 * curve.force[-1] / medium.creep_compliance(times[-1])
-        depth, _ = growing_contact(DISC, medium, times, force, until_fraction=0.1)
-        np.testing.assert_allclose(depth, kinetics(curve, force, medium, times).depth, rtol=1e-10, atol=0)
 
 
 # ---- steps

@@ -277,20 +277,6 @@ def increasing(name: str, values: ArrayLike, *, above_zero: bool = False, steps:
     raise ValueError(f"{name}: allowed is {allowed}{f', or given twice where {steps} steps' if steps else ''}")
 
 
-def samples(name: str, values: ArrayLike | None, times: Array, reason: str = "") -> Array:
-    """Return the samples of a load as floats. Raises ValueError unless there is a finite sample ≥ 0 for each time.
-
-    reason : end of the message, which explains why the load must be at least 0
-    """
-    values = real_numbers(name, values)
-    if values.shape != times.shape:
-        raise ValueError(f"{name}: samples of shape {values.shape}; allowed: one per time, shape {times.shape}")
-    if not (allowed := np.isfinite(values) & (values >= 0)).all():
-        where = int(np.argmin(allowed))
-        raise ValueError(f"{name}: sample {where} is {values[where]}; allowed: finite, 0 or more{reason}")
-    return values
-
-
 def jumps_and_slopes(times: Array, load: Array) -> tuple[Array, Array]:
     """Return the jump of a load just before each sample, and its slope from each sample to the next.
 

@@ -39,7 +39,7 @@ endif
 # the packages of the first one.
 MOVED := $(if $(wildcard .venv/lock-installed),$(shell grep -qsF "$$(pwd -P)/.venv/bin/python" .venv/bin/pip || echo moved))
 
-.PHONY: help environment environment-dev environment-slurm settings reproduce paper report check lint ready-to-test test test-all docs test-slurm bench \
+.PHONY: help environment environment-dev environment-slurm reproduce paper report check lint ready-to-test test test-all docs test-slurm bench \
 	speed stability sizes law law-errors intervals large first-minutes outside fuzz faults seeds publish dist peers lock lock-dev lock-peers lock-slurm clean
 
 help:
@@ -94,18 +94,14 @@ environment-slurm: .venv/slurm-installed
 	$(PIP_INSTALL) --require-hashes --no-deps -r requirements-slurm.lock
 	@touch $@
 
-# Snakemake does not name file and line of what it cannot read.
-settings: environment
-	@$(if $(SETTINGS),$(BIN)/python -m viscorough_study.run.settings_files $(SETTINGS))
-
-reproduce: settings
+reproduce: environment
 	@$(WITH_PROGRESS) $(SNAKEMAKE) -- all
 
 paper: override SETTINGS := config/paper.yaml
 paper: reproduce
 
 # Includes the target beside `all` if it was made.
-report: settings
+report: environment
 	$(SNAKEMAKE) --report results/report.html -- all $(patsubst results/figures/%.png,%,$(wildcard results/figures/sizes.png))
 
 # Written in full each time (-E): pages that are kept would hide the warnings of an earlier run.
@@ -147,15 +143,15 @@ bench: environment
 speed stability: SETTINGS = config/methods.yaml
 sizes: SETTINGS = config/sizes.yaml
 
-speed: settings
+speed: environment
 	$(SNAKEMAKE) -- speed
 	$(BIN)/python benchmarks/solver_race.py --output results/tables/other_solvers.csv
 
-stability: settings
+stability: environment
 	$(SNAKEMAKE) -- stability
 	$(BIN)/python benchmarks/campaign.py --cores $(CORES) --output results/campaign.json
 
-sizes: settings
+sizes: environment
 	$(SNAKEMAKE) -- sizes
 
 law: environment

@@ -1,9 +1,5 @@
 """Read settings files; an error message is one line that names the file and, if possible, the line in it.
 
-This command checks that a settings file can be read:
-
-    python -m viscorough_study.run.settings_files mine.yaml
-
 Snakemake reads the files given with --configfile before it reads the Snakefile, and its own messages name neither file
 nor line. Therefore profiles/default calls `check_command_line` before Snakemake reads the files.
 """
@@ -42,19 +38,9 @@ def check_command_line(arguments):
             paths += [path] if option in ("--configfile", "--configfiles") and equals else []
         elif reads_paths:
             paths.append(argument)
-    if code := main(paths):
-        sys.exit(code)
-
-
-def main(paths):
     try:
         for path in paths:
             read_settings_file(path)
     except ValueError as error:
         sys.stderr.write(f"Error in the settings: {error}\n")
-        return 2
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+        sys.exit(2)

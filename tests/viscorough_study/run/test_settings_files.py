@@ -2,7 +2,7 @@
 
 import pytest
 
-from viscorough_study.run.settings_files import check_command_line, main, read_settings_file
+from viscorough_study.run.settings_files import check_command_line, read_settings_file
 
 BROKEN = {
     "unclosed": (b"discs:\n  hurst: [0.4\n", "expected ',' or ']', but got '<stream end>'"),
@@ -21,7 +21,8 @@ def test_broken_file_is_reported_in_one_line(tmp_path, monkeypatch, capsys, cont
     monkeypatch.chdir(tmp_path)
     if content is not None:
         (tmp_path / "mine.yaml").write_bytes(content)
-    assert main(["mine.yaml"]) == 2
+    with pytest.raises(SystemExit, match="2"):
+        check_command_line(["--configfile", "mine.yaml"])
     output, text = capsys.readouterr()
     assert output == ""
     assert text.startswith("Error in the settings: mine.yaml: not readable (")
@@ -30,12 +31,10 @@ def test_broken_file_is_reported_in_one_line(tmp_path, monkeypatch, capsys, cont
     assert text.count("\n") == 1
 
 
-def test_valid_file_is_read(tmp_path, capsys):
+def test_valid_file_is_read(tmp_path):
     path = tmp_path / "mine.yaml"
     path.write_bytes(b"\xef\xbb\xbfdiscs: {elements: 9}\nlines: {<<: {batch: 2}, batch: 3}\n")
     assert read_settings_file(path) == {"discs": {"elements": 9}, "lines": {"batch": 3}}
-    assert main([path]) == 0
-    assert capsys.readouterr() == ("", "")
 
 
 def test_files_of_settings_are_found_on_a_command_line(tmp_path, monkeypatch, capsys):

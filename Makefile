@@ -165,8 +165,7 @@ law-errors: environment
 		--scatter results/tables/law_scatter.csv
 
 large: environment
-	$(BIN)/python benchmarks/large_discs.py --cores $(CORES) --output results/tables/large.csv \
-		--figure results/figures/large.png
+	$(BIN)/python benchmarks/large_discs.py --cores $(CORES) --output results/tables/large.csv
 
 first-minutes: environment
 	$(BIN)/python benchmarks/first_minutes.py --cores $(CORES) --output results/first_minutes.csv

@@ -1,6 +1,6 @@
 """Measure time and memory of the loading curve of one disc on grids from coarse to fine.
 
-    python benchmarks/large_discs.py --output results/tables/large.csv --figure results/figures/large.png
+    python benchmarks/large_discs.py --output results/tables/large.csv
 
 Each disc is indented in a separate process, whose peak memory counts. `make large` runs it.
 """
@@ -8,16 +8,14 @@ Each disc is indented in a separate process, whose peak memory counts. `make lar
 import resource
 from functools import partial
 from multiprocessing import get_context
-from pathlib import Path
 
 import click
 import numpy as np
 import pandas as pd
-from measuring import LARGE_PAGES, fit_cost, output_option, run_timed, save_times
+from measuring import LARGE_PAGES, output_option, run_timed, save_times
 
 from viscorough.contact.loading_path import indent
 from viscorough.surfaces.self_affine import self_affine_disc
-from viscorough_study.figures import style
 from viscorough_study.performance import timing
 from viscorough_study.run.seeds import large_disc_key, realization_seed
 
@@ -69,40 +67,14 @@ def measure_disc(across, *, until_fraction, threads):
     }
 
 
-@style.figure
-def plot_large(table):
-    """Plot time (a) and memory (b) of one curve over the elements, with exponents fitted to the larger half.
-
-    table : costs of the discs of at least two sizes, by ascending number of elements
-    """
-    figure, (time, memory) = style.new_subplots(80, 1, 2)
-    elements, threads = table["elements"], f"wall time on {table['threads'].max():.0f} threads"
-    larger = slice(min(len(table) // 2, len(table) - 2), None)
-    time.plot(elements, table["wall_threads"], "s", markerfacecolor="none", color=style.GREY, label=threads)
-    for axes, values in ((time, table["processor"]), (memory, table["memory"] / 1e9)):
-        axes.plot(elements, values, "o", color=style.BLUE, label="measured (elements across)")
-        exponent, factor = fit_cost(elements[larger], values[larger])
-        line = factor * elements[larger] ** exponent
-        axes.plot(elements[larger], line, color=style.GREY, label=f"exponent {exponent:.2f}")
-        for across, *at in zip(table["across"], elements, values, strict=True):
-            axes.annotate(f"{across}", at, (-5, 3), textcoords="offset points", ha="right")
-        axes.set(xscale="log", yscale="log", xlabel="elements of the disc")
-        axes.margins(x=0.2, y=0.12)  # space for the number at the first marker
-        axes.legend(loc="upper left", bbox_to_anchor=(0, 0.95))
-    time.set(title="(a) time", ylabel="time (s)")
-    memory.set(title="(b) memory", ylabel="memory of the process (GB)")
-    return figure
-
-
 @click.command(help=__doc__.splitlines()[0])
 @output_option
-@click.option("--figure", type=click.Path(path_type=Path), required=True, help="PNG file to draw; also as PDF.")
 @click.option("--largest", type=click.IntRange(257), default=8193, show_default=True, help="Elements across, at most.")
 @click.option(
     "--until-fraction", type=float, default=0.5, show_default=True, help="Contact fraction of the last level."
 )
 @click.option("--cores", type=click.IntRange(1), default=2, show_default=True, help="Threads of the second runs.")
-def main(output, figure, largest, until_fraction, cores):
+def main(output, largest, until_fraction, cores):
     rows, options = [], {"until_fraction": until_fraction, "threads": cores}
     for across in (number for number in ELEMENTS if number <= largest):
         click.echo(f"{across} elements across")
@@ -111,9 +83,6 @@ def main(output, figure, largest, until_fraction, cores):
     table = pd.DataFrame(rows, columns=list(COLUMNS))
     settings = {"hurst": HURST, "tolerance": TOLERANCE, "seed": SEED, **options}
     save_times(table, output, COLUMNS, "Cost of one disc", settings)
-    figure.parent.mkdir(parents=True, exist_ok=True)
-    style.save_figure(plot_large(table), figure, figure.with_suffix(".pdf"))
-    click.echo(f"drawn in {figure}")
 
 
 if __name__ == "__main__":

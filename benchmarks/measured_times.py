@@ -1,9 +1,9 @@
 """Names of result files that hold measured times, and therefore differ from run to run."""
 
-FOLDERS = {"logs", "benchmarks", "methods", "large"}
+FOLDERS = {"logs", "benchmarks"}
 # Names of tables and figures with any suffix, and of the page.
 NAMES = {"methods", "one_surface", "mean_accuracy", "sufficient_models", "level_placement", "rule_costs"}
-NAMES |= {"speed", "index"}
+NAMES |= {"large", "speed", "index"}
 
 
 def holds_times(path):

@@ -1,4 +1,4 @@
-"""Common parts of the benchmarks: environment of timed runs, output option and file, and growth of a cost."""
+"""Common parts of the benchmarks: environment of timed runs, output option and files."""
 
 import json
 import os
@@ -6,7 +6,6 @@ import sys
 from pathlib import Path
 
 import click
-import numpy as np
 
 import viscorough
 from viscorough.io.atomic import atomic_write
@@ -63,11 +62,3 @@ def save_times(table, output, columns, title, settings):
     described = {"columns": columns, "dimension": "measurement", "title": title, "attributes": attributes}
     write_table(table, output, output.with_suffix(".nc"), **described)
     click.echo(f"written to {output}")
-
-
-def fit_cost(number, cost):
-    """Return (a, c) of cost = c·number^a, by least squares of the logarithms; nan for fewer than two sizes."""
-    if len(number) < 2:
-        return np.nan, np.nan
-    exponent, logarithm = np.polyfit(np.log(number), np.log(cost), 1)
-    return exponent, np.exp(logarithm)

@@ -47,7 +47,7 @@ PUBLISHED = {
     ),
     "stability": _made("failures failure_map", "failure_map failure_knobs", "campaign.json"),
     "sizes": _made("sizes local_exponent", "sizes fine_exponents fine_velocities fine_costs"),
-    "large": _made("large", "large"),
+    "large": _made(tables="large"),
     "bench": ["benchmarks.json"],
     "outside": ["outside.csv"],
     "law": _made(tables="law"),

@@ -8,12 +8,12 @@ import slurm
 def test_only_measured_times_may_differ(tmp_path):
     results = tmp_path / "results"
     same = ["tables/claims.csv", "figures/fig1.pdf"]
-    measured = ["tables/methods.csv", "index.html", "logs/a/b.log", "benchmarks/a.tsv", "methods/rough.csv"]
+    measured = ["tables/methods.csv", "index.html", "logs/a/b.log", "benchmarks/a.tsv"]
     for name in same + measured:
         (results / name).parent.mkdir(parents=True, exist_ok=True)
         (results / name).write_text("1.0")
     expected = slurm.contents(tmp_path)
-    assert len(expected) == 7
+    assert len(expected) == 6
     for name in measured:
         (results / name).write_text("2.0")
     assert slurm.compare(tmp_path, expected) == []

@@ -83,10 +83,10 @@ def test_results_with_different_numbers_differ():
 
 @pytest.mark.parametrize("copied", [copy.deepcopy, lambda result: pickle.loads(pickle.dumps(result))])
 @pytest.mark.parametrize(("one", "same"), PAIRS)
-def test_copies_are_equal_and_read_only(one, same, copied):
+def test_results_and_their_copies_are_equal_and_read_only(one, same, copied):
     made = copied(one)
     assert made == one == same
-    for array in arrays_in(made):
+    for array in (*arrays_in(one), *arrays_in(made)):
         assert not array.flags.writeable
 
 

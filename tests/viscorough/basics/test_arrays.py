@@ -7,10 +7,8 @@ import numpy as np
 import pint
 import pytest
 
-from support.curves import random_curve
-from viscorough import Indenter, Load, contact_at, kinetics
+from viscorough import Indenter, Load
 from viscorough.basics.arrays import fraction, positive, read_only, real_number, real_numbers, whole_number
-from viscorough.viscous.integration.events import newtonian_events
 from viscorough.viscous.integration.stepping import newtonian_steps
 
 HILL = Indenter([[0.0, 1.0], [0.5, 0.2]], 1.0)
@@ -41,32 +39,6 @@ def test_masked_entries_are_nan(dtype):
         np.testing.assert_array_equal(read_only(values), [[1, np.nan], [3, 4]])
     np.testing.assert_array_equal(read_only(masked[1]), [3, 4])
     assert read_only(masked[1]).dtype == dtype, "where nothing is masked the type stays"
-
-
-def arrays_of(result):
-    fields = result._asdict() if hasattr(result, "_asdict") else vars(result)
-    return {name: value for name, value in fields.items() if isinstance(value, np.ndarray)}
-
-
-@pytest.mark.parametrize(
-    "result",
-    [
-        random_curve(),
-        HILL,
-        kinetics(random_curve(), 1.0, 1.0),
-        Load([1.0, 2.0], force=[1.0, 1.0]),
-        newtonian_events(HILL),
-        newtonian_steps(HILL, np.array([0.1, 1.0])),
-        contact_at(HILL, depth=0.1),
-    ],
-    ids=lambda result: type(result).__name__,
-)
-def test_arrays_of_inputs_and_results_are_read_only(result):
-    assert arrays_of(result)
-    for name, array in arrays_of(result).items():
-        with pytest.raises(ValueError, match="read-only"):
-            array *= 2
-        assert not array.flags.writeable, name
 
 
 def test_masked_samples_of_a_force_are_refused():

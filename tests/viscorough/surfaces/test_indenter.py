@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-import viscorough
 from support.contract import refused
 from viscorough import Indenter, indent, reduce
 
@@ -87,9 +86,6 @@ def test_invalid_heights_are_refused(heights, what):
         Indenter(heights, 1.0)
 
 
-# ---- units, comparison and mistaken types
-
-
 def test_lengths_with_units_are_converted():
     indenter = Indenter([[0.0, 2.0], [1.0, np.nan]], (500.0, 250.0), length_unit="nm").to("m")
     np.testing.assert_allclose(indenter.heights, [[0, 2e-9], [1e-9, np.nan]], rtol=1e-15)
@@ -99,14 +95,3 @@ def test_lengths_with_units_are_converted():
         Indenter([[1.0]], 1.0).to("m")
     with refused("unit 's': "):
         indenter.to("s")
-
-
-def test_indenters_and_curves_are_compared_by_their_numbers():
-    heights = np.array([[0.0, 2.0], [1.0, np.nan]])
-    assert Indenter(heights, 1.0) == Indenter(heights.copy(), 1.0)
-    assert Indenter(heights, 1.0) != Indenter(heights, 2.0)
-    assert Indenter(heights, 1.0) != heights.size
-    curve = viscorough.indent(Indenter(heights, 1.0))
-    assert curve == viscorough.indent(Indenter(heights, 1.0))
-    assert curve != viscorough.indent(Indenter(2 * heights, 1.0))
-    assert len(repr(curve).splitlines()) <= 5

@@ -52,8 +52,8 @@ def short_answer(table):
     collapse = COLLAPSE[verdicts["collapse"]]
     if verdicts["equivalence"] and verdicts["collapse"]:
         collapse = (
-            "As the paper says, the viscous problem follows from the elastic one, and the curves of each Hurst "
-            "exponent H collapse for all forces, viscosities, sizes and rms heights"
+            "As the paper says, the viscous problem follows from the elastic one, and for each Hurst exponent H "
+            "(small: rugged) the curves of all forces, viscosities, sizes and rms heights collapse onto one"
         )
     cases, parts = _exponents(table, "beta", "discs"), []
     if holding := _hursts(cases, HELD):
@@ -68,10 +68,12 @@ def short_answer(table):
         }
         unclaimed = ", where it claims nothing" if set(apart) <= set(small) else ""
         parts += [f"{word} {_joined(list(apart.values()))}{unclaimed}"] if apart else []
-    exponent = f"The exponent of the power law in time {_joined(parts, comma=True)}" if parts else ""
+    exponent = (
+        f"In their middle part, vt/h is a power of time whose exponent {_joined(parts, comma=True)}" if parts else ""
+    )
     failing = ["the prefactor of Eq. 12"] if verdicts["master_curve"] is False else []
-    failing += ["the factor 1/Γ(2 − α)"] if verdicts["gamma"] is False else []
-    unconfirmed = f"Not confirmed: {_joined(failing)}; the exponent does not depend on them" if failing else ""
+    failing += ["the factor 1/Γ(2 − α) of Eqs. 7 to 9"] if verdicts["gamma"] is False else []
+    unconfirmed = f"Not reproduced: {_joined(failing)}; the exponent does not depend on them" if failing else ""
     return [f"{sentence}." for sentence in (collapse, exponent, unconfirmed) if sentence]
 
 

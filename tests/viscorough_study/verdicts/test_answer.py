@@ -93,11 +93,13 @@ def test_answer_changes_with_a_verdict(claim, case, verdict, text):
 
 def test_short_answer_has_three_sentences_from_the_verdicts():
     assert short_answer(TABLE) == [
-        "As the paper says, the viscous problem follows from the elastic one, and the curves of each Hurst exponent H "
-        "collapse for all forces, viscosities, sizes and rms heights.",
-        "The exponent of the power law in time is H/(1 + H) within 0.02 at H = 0.6 and 0.9 (the paper: “at least for "
-        "H > 0.4”), and larger by 0.16 at H = 0.1 and by 0.05 at H = 0.4, where it claims nothing.",
-        "Not confirmed: the prefactor of Eq. 12 and the factor 1/Γ(2 − α); the exponent does not depend on them.",
+        "As the paper says, the viscous problem follows from the elastic one, and for each Hurst exponent H (small: "
+        "rugged) the curves of all forces, viscosities, sizes and rms heights collapse onto one.",
+        "In their middle part, vt/h is a power of time whose exponent is H/(1 + H) within 0.02 at H = 0.6 and 0.9 "
+        "(the paper: “at least for H > 0.4”), and larger by 0.16 at H = 0.1 and by 0.05 at H = 0.4, where it claims "
+        "nothing.",
+        "Not reproduced: the prefactor of Eq. 12 and the factor 1/Γ(2 − α) of Eqs. 7 to 9; the exponent does not "
+        "depend on them.",
     ]
     undecided = TABLE.assign(verdict="undecided")
     assert short_answer(undecided) == ["Whether the curves of each Hurst exponent collapse is undecided."]

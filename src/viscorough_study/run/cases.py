@@ -101,8 +101,9 @@ def _size_discs(settings):
     sizes = settings["sizes"]
     # The first `whole_curves` curves of an ensemble end at the dimensionless force X = `until_x`, all other curves at
     # `short_until_x`. Here both values of X are equal, so `whole_curves` does not matter.
-    ends = {"until_x": sizes["until_x"], "short_until_x": sizes["until_x"], "whole_curves": 0}
-    shared = {"pool": "size_discs", "indentation": settings["indentation"] | ends}
+    changed = {"until_x": sizes["until_x"], "short_until_x": sizes["until_x"], "whole_curves": 0}
+    changed["tolerance"] = settings["discs"]["tolerance"]
+    shared = {"pool": "size_discs", "indentation": settings["indentation"] | changed}
     surface, powers = settings["surface"] | UNIT_DISC, [{"hurst": hurst} for hurst in sizes["hurst"]]
     cases = {}
     for group, changes, key in (

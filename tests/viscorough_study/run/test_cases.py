@@ -60,6 +60,7 @@ def test_batches_of_several_ensembles_hold_each_realization_once(settings):
     assert members == [(8, hurst, n, number) for hurst, n, numbers in sizes for number in range(numbers)]
     assert cases.batch_ensembles(case, "0007-0013")[1]["surface"]["hurst"] == 0.1
     assert case["indentation"]["until_x"] == settings["sizes"]["until_x"] != settings["indentation"]["until_x"]
+    assert case["indentation"]["tolerance"] == settings["discs"]["tolerance"] != settings["indentation"]["tolerance"]
 
 
 def test_batch_has_the_same_realizations_of_all_combinations(settings):

@@ -34,7 +34,7 @@ from viscorough.basics.arrays import (
 from viscorough.basics.elasticity import poisson_ratio, shear_over_incompressible, young_over_shear
 from viscorough.basics.types import Array, Scalar, Several
 from viscorough.media.load import Load
-from viscorough.media.medium import SHORTEST, Medium, checked_times
+from viscorough.media.medium import Medium, checked_times
 from viscorough.media.spectra import (
     POWER_LAW_ERROR,
     RelaxationSpectrum,
@@ -63,6 +63,9 @@ YOUNG = {
 }
 # Names of the parameters that are lists of numbers.
 _LISTS = ("moduli", "relaxation_times")
+# Error of a motion in a springpot after a turn of the load, because J is not represented at earlier times, in units of
+# about 1e-3; see `Springpot.spectrum`. A contact that begins late in an interval between two turns increases the error.
+_SHORTEST = 1e-7
 
 
 @dataclass(frozen=True)
@@ -357,11 +360,12 @@ class Springpot(Medium):
     def spectrum(self, load: Load) -> tuple[Spectrum, float]:
         """Return springs and dashpots with the same J to 1e-8 at the times of the load, and this misfit.
 
-        They creep like the springpot from a millionth of the shortest interval between two turns of the load up to its
-        duration.
+        They creep like the springpot from the time s up to the duration of the load. The share s/T of the shortest
+        interval T between two turns of the load satisfies (s/T)^(1+a) = _SHORTEST: before the time s, J errs by about
+        J(s) ~ s^a, and the integral of this error over time, ~ s^(1+a), affects the motion after a turn.
         """
-        last = load.duration or 1.0
-        retardation = power_law_spectrum(self.modulus, self.exponent, SHORTEST * load.shortest_interval, last)
+        shortest = load.shortest_interval * _SHORTEST ** (1 / (1 + self.exponent))
+        retardation = power_law_spectrum(self.modulus, self.exponent, shortest, load.duration or 1.0)
         return spectrum_of(relaxation_spectrum(retardation), retardation), POWER_LAW_ERROR
 
     def creep_compliance(self, time: ArrayLike) -> Array:

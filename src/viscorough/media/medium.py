@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 LARGEST_MISFIT = 0.1
 # A medium that is known only by J is sampled from this share of the shortest interval between two turns of a load (see
 # Load.shortest_interval) up to its duration, with so many times per decade.
-SHORTEST, _PER_DECADE = 1e-6, 20
+_SHORTEST, _PER_DECADE = 1e-6, 20
 
 
 def checked_times(time: ArrayLike) -> Array:
@@ -92,7 +92,7 @@ class Medium(ABC):
         Raises ValueError if the misfit exceeds 10 %, as for a J that no medium that relaxes has.
         """
         last = load.duration or 1.0
-        times, fit = self._fitted(SHORTEST * min(load.shortest_interval, last), last)
+        times, fit = self._fitted(_SHORTEST * min(load.shortest_interval, last), last)
         errors = np.abs(fit.errors)
         check_misfit(type(self).__name__, times, errors)
         retardation = solvable(fit.retardation, times[1], times[-1])
@@ -107,7 +107,7 @@ class Medium(ABC):
         positive = time[time > 0]
         if not positive.size:
             return np.full(time.shape, np.nan)
-        _, fit = self._fitted(SHORTEST * float(positive.min()), float(positive.max()))
+        _, fit = self._fitted(_SHORTEST * float(positive.min()), float(positive.max()))
         rates = fit.strengths / fit.times * np.exp(-np.divide.outer(time, fit.times))
         return fit.second + rates.sum(axis=-1)
 

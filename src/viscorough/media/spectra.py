@@ -16,6 +16,8 @@ from viscorough.basics.types import Array
 
 # Relative error of the springs and dashpots that approximate a power law.
 POWER_LAW_ERROR = 1e-8
+# Slow elements may be replaced up to a rate z/T with z^(4−a) = _SLOW_ERROR times this error, see `power_law_spectrum`.
+_SLOW_ERROR = 100.0
 # Number of bisections of an interval that contains a zero. The first ten reduce the ratio of the ends of the interval
 # to 2. The others find the zero to rounding.
 _BISECTIONS = 80
@@ -213,18 +215,25 @@ def power_law_spectrum(modulus: float, exponent: float, shortest: float, longest
 
     The integral t^a/Γ(1 + a) = sin(πa)/π ∫(1 − exp(−t eˣ)) exp(−a x) dx is replaced by a sum at equal steps of x, with
     one Kelvin-Voigt element per step. A spring replaces all elements that are much faster than `shortest`. A dashpot
-    replaces all elements up to the rate λ that are much slower than `longest` = T. They creep by z − z²/2 for z = λT,
-    so the dashpot causes a relative error of less than z^(2−a)/10. The relative error of J is about 1e-8.
+    and one element replace all elements whose rates λ are at most z/T, where T = `longest`. Each of these creeps by
+    λt − (λt)²/2 + (λt)³/6 − …. The three unknowns φ, J and λ of the replacement follow from the sums m_n of the first
+    three terms, φ + Jλ = m₁, Jλ² = m₂ and Jλ³ = m₃, and the relative error of J(T) is less than z^(4−a)/1000. With all
+    errors, the relative error of J is about 1e-8.
     """
     logarithm = -np.log(POWER_LAW_ERROR)
     step = np.pi**2 / logarithm
-    start = -logarithm / (2 - exponent) - np.log(longest)
+    start = np.log(_SLOW_ERROR * POWER_LAW_ERROR) / (4 - exponent) - np.log(longest)
     logarithms = np.arange(start, np.log(logarithm / shortest) + step, step)
     weight = np.sin(np.pi * exponent) / np.pi * step / modulus
     faster = np.exp(-exponent * (logarithms[-1] + step)) / -np.expm1(-exponent * step)
-    slower = np.exp((1 - exponent) * (logarithms[0] - step)) / -np.expm1(-(1 - exponent) * step)
+    powers = np.arange(1, 4) - exponent
+    first, second, third = np.exp(powers * (logarithms[0] - step)) / -np.expm1(-powers * step)
+    slow = third / second
     return RetardationSpectrum(
-        weight * faster, weight * slower, weight * np.exp(-exponent * logarithms), np.exp(-logarithms)
+        weight * faster,
+        weight * (first - second / slow),
+        weight * np.append(second / slow**2, np.exp(-exponent * logarithms)),
+        np.append(1 / slow, np.exp(-logarithms)),
     )
 
 

@@ -283,9 +283,11 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
             f"{argument('times')}: missing, and the creep is from F/G {at_once:.6g}, at once, to {at_last:.6g}, in the "
             f"end, beside the curve, from {first:.6g} to {last:.6g}; times or another force are needed"
         )
-    # Before the first level the depth is unknown, so the times begin beyond it in spite of the error of a springpot.
-    start = (1 + 10 * POWER_LAW_ERROR) * first if at_once < first else at_once + _EARLY * (min(last, at_last) - at_once)
-    end = last if at_last >= last else at_last - _EARLY * (at_last - max(first, at_once))
+    # Before the first level and after the last the depth is unknown, so the times keep clear of them by more than the
+    # error of a springpot.
+    margin = 10 * POWER_LAW_ERROR
+    start = (1 + margin) * first if at_once < first else at_once + _EARLY * (min(last, at_last) - at_once)
+    end = (1 - margin) * last if at_last >= last else at_last - _EARLY * (at_last - max(first, at_once))
     target = np.array([start, end]) / force
     with np.errstate(all="ignore"):
         smallest = max(earliest, np.finfo(float).tiny)

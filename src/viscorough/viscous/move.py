@@ -661,10 +661,12 @@ def _ramp(system, now, interval, samples):
         left = length - passed
         touch = touch - s if approaches else _next_touch(system, now, left)
         paused = events > _MOST_AT_ONCE * system.row.gaps.size + 8
-        release = _next_release(system, now, min(left, touch), _ROUGHLY)
-        approaches = not paused and release < touch and release * fastest > _FORGOTTEN
-        approaches = approaches and passed + _APPROACH * release > passed
-        if np.isfinite(release) and not approaches:
+        # After an approach, the next is needed only if the release is further ahead than the approach was long.
+        early = 0.0 if approaches else _ROUGHLY
+        release = _next_release(system, now, min(left, touch), early)
+        far = release > s if approaches else release * fastest > _FORGOTTEN
+        approaches = not paused and release < touch and far and passed + _APPROACH * release > passed
+        if np.isfinite(release) and not approaches and early > 0:
             release = _next_release(system, now, min(left, touch), 0.0)
         if paused:
             # A spring whose force is zero within rounding touches and is released again and again. Move on for a short

@@ -7,7 +7,7 @@ from support.workflow import TEST, jobs, plan, snakemake
 
 @pytest.mark.parametrize(
     ("name", "indent_surfaces", "reduce_lines", "indent_nested"),
-    [("config", 4 * (2 + 1) + 3, 22, 20), ("paper", 4 * (8 + 8) + 4, 102, 20)],
+    [("config", 4 * (2 + 1) + 2, 22, 20), ("paper", 4 * (8 + 8) + 4, 102, 20)],
 )
 def test_large_scales_have_a_plan(unmade, name, indent_surfaces, reduce_lines, indent_nested):
     planned = plan(unmade, "--configfile", f"config/{name}.yaml")

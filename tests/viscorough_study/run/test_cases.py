@@ -38,7 +38,7 @@ def test_every_case_is_in_one_pool(settings):
 def test_curves_of_a_pool_are_in_the_folder_of_their_kind(settings):
     tables = {"discs": cases.disc_cases(settings), "lines": cases.line_cases(settings), "measured": {}}
     assert cases.pool_curves(tables, "size_lines") == ["results/curves/lines/sizes/0000-0239.nc"]
-    assert cases.pool_groups(tables, "size_discs") == ["sizes"] * 2 + ["controls"]
+    assert cases.pool_groups(tables, "size_discs") == ["sizes", "controls"]
     combinations = cases.combination_curves(tables["discs"])
     assert combinations[0] == "results/curves/discs/h01000/0000-0039.nc"
     assert len(combinations) == 4 * 2

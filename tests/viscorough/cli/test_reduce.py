@@ -19,8 +19,9 @@ def here(here):
     return here
 
 
-def test_reduce_reads_a_line_from_a_file():
+def test_reduce_reads_a_line_from_a_file(capsys):
     assert run("reduce line.npy --spacing '250 nm' --unit um --until-fraction 0.5 -o curve.nc") == 0
+    assert "curves" not in capsys.readouterr().out
     curve = load_curve("curve.nc")
     assert curve.length_unit == "um"
     np.testing.assert_allclose(curve.force, mdr.reduce(LINE, until_fraction=0.5).force, rtol=1e-14)
@@ -44,7 +45,8 @@ def test_text_with_two_spacings_is_a_map():
 
 def test_map_gives_many_lines_and_a_warning(capsys):
     assert run("reduce map.npy --spacing 1 --realizations 3 --seed 7 -o curves.nc") == 0
-    warning = capsys.readouterr().err
+    said, warning = capsys.readouterr()
+    assert "3 curves, the first with " in said
     content = netcdf.read("curves.nc")
     assert "not the curve of this surface" in warning
     assert content.attributes["warnings"] in warning

@@ -73,6 +73,13 @@ def test_content_is_read_exactly_as_written(tmp_path):
         np.testing.assert_equal(read.attributes, variable.attributes)
 
 
+@pytest.mark.parametrize(("unit", "units"), [("um", ("s", "um s-1", "um2")), ("1", ("s", "s-1", "1"))])
+def test_units_follow_the_unit_of_length(unit, units):
+    quantities = {"t": ("time", "time"), "v": ("velocity", "velocity"), "a": ("area", 2)}
+    variables = netcdf.described(("time",), dict.fromkeys(quantities, np.zeros(1)), quantities, unit)
+    assert tuple(variable.attributes["units"] for variable in variables.values()) == units
+
+
 @pytest.mark.parametrize("limit", [0, 20_000])
 def test_full_disk_is_one_line_and_leaves_no_file(tmp_path, limit):
     """A limit on the size of files imitates the full disk: both fail in the middle of writing."""

@@ -1,10 +1,12 @@
 """The failure map on a reduced set of cases: exact methods hold or refuse, and every failure is noticed."""
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.figures.failure_map import CONCERNED
+from viscorough_study.robustness import failure_map as module
 from viscorough_study.robustness.failure_map import COLUMNS, VERDICTS, failure_map
 from viscorough_study.robustness.stress_cases import StressCase, stress_cases
 from viscorough_study.robustness.stress_solutions import METHODS
@@ -73,3 +75,10 @@ def test_a_failure_that_users_are_not_told_of_is_unnoticed():
     table = failure_map([StressCase("", "", self_affine_disc(0.7, 13, seed=1))], strict)
     assert list(table.columns) == list(COLUMNS)
     assert table["verdict"].tolist() == ["unnoticed"]
+
+
+def test_a_run_warns_of_unnoticed_failures_only(monkeypatch, caplog):
+    failing = pd.DataFrame({"case": VERDICTS, "method": "path", "error": 0.5, "verdict": VERDICTS})
+    monkeypatch.setattr(module, "failure_map", lambda cases: failing)
+    module.map_failures(seed=1, across=9, grids=(9,), hurst_min=0.4)
+    assert [record.message for record in caplog.records] == ["unnoticed: path fails unnoticed, error 0.5"]

@@ -198,24 +198,21 @@ def outcome(mutant, clean, folder, texts, stages, time_limit):
 @click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Seed of all mutants.")
 @click.option("--cores", type=click.IntRange(1), default=2, show_default=True, help="Mutants tested at a time.")
 @click.option("--time-limit", type=click.IntRange(1), default=900, show_default=True, help="For one mutant [s].")
-@click.option("--changed-only", is_flag=True, help="Do not first run the tests without any change.")
 @click.option("--only", type=int, multiple=True, help="Number of a mutant; may be given more than once.")
-@click.option("--tests", multiple=True, help="Test to run instead of those of each module; repeatable.")
-def main(output, mutants, seed, cores, time_limit, changed_only, only, tests):
+def main(output, mutants, seed, cores, time_limit, only):
     texts = sources()
     chosen = list(drawn(texts, seed, only or range(mutants)))
     files = {mutant.file for mutant in chosen}
-    stages = {file: [tests] if tests else [area_tests(file), further_tests(file)] for file in files}
+    stages = {file: [area_tests(file), further_tests(file)] for file in files}
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as temporary:
         clean, folders, began = Path(temporary) / "clean", SimpleQueue(), time.perf_counter()
         copy_project(clean)
         (clean / "results").mkdir()
-        if not changed_only:
-            every = sorted({test for lists in stages.values() for tests in lists for test in tests})
-            code, summary, seconds = run_tests(every, clean, 36_000, "-n", str(cores))
-            if code:
-                raise click.ClickException(f"tests fail without any change: {summary}")
-            click.echo(f"all tests without any change: {seconds:.0f} s")
+        every = sorted({test for lists in stages.values() for tests in lists for test in tests})
+        code, summary, seconds = run_tests(every, clean, 36_000, "-n", str(cores))
+        if code:
+            raise click.ClickException(f"tests fail without any change: {summary}")
+        click.echo(f"all tests without any change: {seconds:.0f} s")
         for core in range(cores):
             folders.put(shutil.copytree(clean, Path(temporary) / f"core{core}"))
 

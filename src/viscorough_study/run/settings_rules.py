@@ -21,9 +21,6 @@ _RANGES = [
     ("verdicts.plateau_range.0", "verdicts.plateau_range.1", 10),
     ("scaling.stiffness_range.0", "scaling.stiffness_range.1", 1.01),
 ]
-# Lists of ranges: {setting with a list of upper ends: setting with the lower end of all ranges}. The lower end is None
-# if each entry of the list is a pair (lower end, upper end). In each range the ends must differ by a factor of ten.
-_RANGES_IN_LISTS = {"sizes.windows": None}
 
 
 def contradictions(settings):
@@ -72,11 +69,8 @@ def _too_short_wave(settings):
 
 
 def _empty_range(settings):
-    ranges = list(_RANGES)
-    for name, low in _RANGES_IN_LISTS.items():
-        entries = [f"{name}.{i}" for i in range(len(_value(settings, _path(name))))]
-        ranges += [(low, entry, 10) if low else (f"{entry}.0", f"{entry}.1", 10) for entry in entries]
-    for low_name, high_name, factor in ranges:
+    windows = [(f"sizes.windows.{i}.0", f"sizes.windows.{i}.1", 10) for i in range(len(settings.sizes.windows))]
+    for low_name, high_name, factor in _RANGES + windows:
         paths = _path(low_name), _path(high_name)
         low, high = (_value(settings, path) for path in paths)
         if high < factor * low * (1 - 1e-9):  # the factor 1 − 1e-9 allows for rounding

@@ -15,15 +15,14 @@ from pathlib import Path
 REMOVED = "The last run in this folder was killed: its lock is removed, its results are kept."
 
 
-def remove_stale_locks(folder=".snakemake"):
-    """Remove Snakemake's locks from a folder unless another Snakemake is running there.
+def remove_stale_locks():
+    """Remove Snakemake's locks from the working directory unless another Snakemake is running there.
 
-    folder : Snakemake's folder for its records
     Returns the descriptor of an open file, whose lock marks this process as running until it ends. Returns None if the
     folder cannot be written, or if its file system does not support such locks; Snakemake then shows its own message on
     locks.
     """
-    folder = Path(folder)
+    folder = Path(".snakemake")
     try:
         folder.mkdir(exist_ok=True)
         alive = os.open(folder / "alive", os.O_RDWR | os.O_CREAT)

@@ -62,7 +62,6 @@ MISTAKES = [
     (f"{CONTACT_UM} --force '1 Pa' --young 1", QUANTITY),
     (f"{CONTACT} --force '1 mN' --shear-modulus 1", NO_UNIT),
     (f"{CONTACT} --force 1 --shear-modulus '1 um'", "--shear-modulus"),
-    (f"{CONTACT.replace('--spacing 1', '--spacing 1e-170')} --depth 1", "too small to represent areas"),
     (
         f"{CONTACT} --depth 1e300",
         "contact at depth 1e+300: larger than 1e+25 times the largest initial gap, up to which depths are allowed",
@@ -79,7 +78,6 @@ MISTAKES = [
     ("kinetics map.nc --force 1 --viscosity 1 -o out.nc", "map.nc: no numbers depth(level)"),
     (f"{KINETICS} --force '1 N' --viscosity 1", f"--force 1 N: {NO_UNIT}"),
     (f"{KINETICS} --force 1 --viscosity '1 Pa s'", f"--viscosity 1 Pa s: {NO_UNIT}"),
-    (f"{KINETICS} --force 1e-320 --viscosity 1", "beside the curve"),
     (f"{KINETICS} --force 1 --medium none.yaml", "none.yaml: not readable (No such file or directory)"),
     (f"{KINETICS} --force 1 --medium medium.yaml -o link.nc", "would replace the medium"),
     (f"{KINETICS} --force-history force.csv --viscosity 1 -o force.csv", "would replace the force history"),
@@ -97,7 +95,7 @@ MISTAKES = [
     (f"{ESTIMATE.replace('0.8', '0.05')} --rms 1 --force 1 --viscosity 1", "--hurst: must be from 0.1 to 1"),
     (f"{GENERATE} --elements 5 --roll-off 0.01", "--roll-off: must leave at least one wave"),
     (f"{INDENT} --audit --tolerance 1e-11", "indent: --tolerance must be between 1e-10 and 0.1"),
-    (f"{CONTACT.replace('--spacing 1', '--spacing 1e-170')} --depth 1", "contact: a spacing of 1e-170 is too small"),
+    (f"{CONTACT.replace('--spacing 1', '--spacing 1e-170')} --depth 1", "contact: a spacing of 1e-170 is too small to"),
     (
         f"{KINETICS} --force 1e6 --viscosity 1 --times 1e6",
         "indent further, with --until-fraction 1 or a level at F/G =",

@@ -50,7 +50,7 @@ class FreeForm(ReadOnlyArrays, SpringsAndDashpots):
     compliances : array
         Compliance J_j ≥ 0 of each element, shape (elements,). Elements with J_j = 0 are dropped.
     retardation_times : array
-        Retardation time θ_j > 0 of each element, all different, shape (elements,).
+        Retardation time θ_j > 0 of each element, shape (elements,). Elements of the same time become one element.
     first_time, last_time : float, optional
         Times between which J is known. Outside them `creep_compliance` is nan.
 
@@ -106,8 +106,10 @@ class FreeForm(ReadOnlyArrays, SpringsAndDashpots):
         strengths = np.array([single["instantaneous_compliance"], single["fluidity"], *compliances])
         if not (np.isfinite(strengths).all() and (strengths >= 0).all() and strengths.any()):
             raise ValueError("FreeForm: strengths; allowed: finite numbers of 0 or more, not all 0")
-        if not (np.isfinite(times).all() and (times > 0).all() and np.unique(times).size == times.size):
-            raise ValueError("FreeForm: retardation_times; allowed: finite numbers above 0, all different")
+        if not (np.isfinite(times).all() and (times > 0).all()):
+            raise ValueError("FreeForm: retardation_times; allowed: finite numbers above 0")
+        times, place = np.unique(times, return_inverse=True)  # elements of the same time are a single element
+        compliances = np.bincount(place, compliances, times.size)
         for name, value in (single | {"last_time": float(self.last_time)}).items():
             object.__setattr__(self, name, value)
         object.__setattr__(self, "compliances", read_only(compliances))

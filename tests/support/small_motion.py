@@ -1,7 +1,7 @@
 """Motion of an indenter of a few elements in a viscoelastic half-space, by sums over the whole past.
 
 It shares no code with the package, so it is an independent check. With the influence matrix S of the surface,
-w = S y, every element follows p = ∫ψ(t − s) dy(s). Steps in time make the assumptions of march_medium:
+w = S y, every element follows p = ∫ψ(t − s) dy(s). Steps in time make the assumptions of march:
 
 - Without a parallel dashpot y is linear within a step, so that p_n = Σ_m ψ̄_nm (y_m − y_{m−1}), with ψ̄_nm the mean of ψ
   over the lags of step m.

@@ -1,6 +1,6 @@
 """viscorough kinetics with media, force histories, times and units; and mistakes in them, each answered in one line.
 
-Units in headings of histories and creep tables are tested in tests/viscorough/io/test_motion.py.
+Units in headings of histories and creep tables are tested in tests/viscorough/io/test_histories.py.
 """
 
 import dataclasses

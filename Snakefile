@@ -29,8 +29,7 @@ CASES = {"discs": DISCS, "lines": LINES, "measured": MEASURED}
 
 
 wildcard_constraints:
-    kind="discs|measured",
-    case="|".join([*DISCS, *MEASURED]),
+    case="|".join(DISCS),
     line="|".join(LINES),
     nested="|".join(NESTED),
     scan="|".join(MEASURED) or "no_scan",

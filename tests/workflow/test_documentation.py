@@ -32,7 +32,6 @@ def test_every_netcdf_file_is_described(finished):
                 variables, dimensions = set(made.variables), set(made.dimensions)
                 assert variables - dimensions == set(rows[pattern].variables) - dimensions, name
     not_there = {"curves/measured/*/*.nc", "surfaces/measured/*/*.nc"}  # the settings name no measured surfaces
-    not_there |= {"surfaces/discs/*/*.nc"}  # temporary
     assert described == {pattern for pattern in rows if "viscorough" not in pattern} - not_there
 
 

@@ -306,6 +306,7 @@ BAD = [
     ("".join(f"{i**1.5} {i % 3} {i % 4}\n" for i in range(10)), "the first column counts up throughout"),
     ("".join(f"{i} {i % 2} {i % 5}\n" for i in range(18)), "the first column counts up evenly"),
     (f"lon lat z\n{CORNERS}", "degrees"),
+    (f"z over x and y\n{CORNERS}", r"one heading, such as 'x \[um\], y \[um\], z \[nm\]', is allowed"),
     (f"x [um] y [um] z [V]\n{CORNERS}", "'V' is no unit of length"),
     (f"# x [um] y [nm] z [um]\n{CORNERS}", "units um and nm"),
     (f"# foo units: um\n# pixel size: 1 um\n{SQUARE}", "foo units: um.*not stated"),

@@ -21,6 +21,12 @@ def table():
     return failure_map([case for case in cases if case.steps <= 256])
 
 
+def test_contact_grows_from_the_first_to_the_last_depth_of_a_case():
+    for case in stress_cases(np.random.SeedSequence(3), 9, (9,), hurst_min=0.4):
+        first, last = case.fractions
+        assert 0 < first < last, case.name
+
+
 def test_every_cell_has_a_number_and_a_verdict_and_nothing_fails_unnoticed(table):
     assert len(table) == len(table[["group", "case"]].drop_duplicates()) * len(METHODS)
     assert np.isfinite(table["error"]).all()

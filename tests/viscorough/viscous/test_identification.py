@@ -334,6 +334,12 @@ def test_retardation_time_between_times_of_the_grid_is_no_error_of_the_zero():
     assert cell["coverage"] > 0.8
 
 
+def test_drift_that_slow_creep_replaces_lies_in_its_interval():
+    """The best fit has a large drift and a dashpot that compensates it, and its tangent misses the true drift."""
+    cell = identification.coverage(("kelvin-voigt", "unload", 50, 1e-2), trials=4, wrong_zero=True)
+    assert cell["drift_coverage"] == 1
+
+
 def test_forces_are_in_newtons_and_moduli_in_pascals():
     """The same numbers on a micrometre scale and on a scale of unit lengths."""
     disc = self_affine_disc(0.8, 17, rms=1e-6, diameter=1e-4, seed=1, length_unit="m")

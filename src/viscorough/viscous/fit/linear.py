@@ -1,10 +1,10 @@
 """Least squares with non-negative unknowns, and extreme values of linear functions of these unknowns near the best fit.
 
 The best fit is the x ≥ 0 that minimises ‖A x − b‖². An x ≥ 0 is near the best fit if ‖A x − b‖² exceeds its minimum by
-at most distance². Among these x, a linear function r·x is largest (λ > 0) or smallest (λ < 0) at the minimiser of
-½ ‖A x − b‖² − λ r·x. The multiplier λ is adjusted until the excess of ‖A x − b‖² equals distance². An active-set method
-finds the minimiser for each λ (Lawson and Hanson 1974). It starts from the unknowns that were positive for the previous
-λ, because few of them change.
+at most distance², so that it does not exceed a given sum of squares. Among these x, a linear function r·x is largest
+(λ > 0) or smallest (λ < 0) at the minimiser of ½ ‖A x − b‖² − λ r·x. The multiplier λ is adjusted until the excess of
+‖A x − b‖² equals distance². An active-set method finds the minimiser for each λ (Lawson and Hanson 1974). It starts
+from the unknowns that were positive for the previous λ, because few of them change.
 
 Additional unknowns may have any sign. Each of them is replaced by a non-negative unknown: its difference from a bound
 far below its value.
@@ -64,12 +64,12 @@ def _with_signed(matrix: Array, target: Array, signed: Array | None) -> tuple[Ar
 
 
 def extremes(
-    matrix: Array, target: Array, functions: Array, distance: float, signed: Array | None = None
+    matrix: Array, target: Array, functions: Array, largest: float, signed: Array | None = None
 ) -> tuple[Array, Array]:
     """Return the smallest and the largest value of linear functions of x ≥ 0 near the best fit of matrix x to target.
 
     functions : coefficients r of each function r·x, shape (functions, unknowns)
-    distance : an x is near the best fit if ‖matrix x − target‖² exceeds its minimum by at most distance²
+    largest : largest ‖matrix x − target‖² of an x near the best fit, above the smallest
     signed : columns of additional unknowns, which may have any sign. The extreme values of these unknowns are returned,
         too, after the values of `functions`
     """
@@ -85,6 +85,8 @@ def extremes(
     reduced: Any = np.linalg.qr(np.column_stack([matrix / scale, target]), mode="r")
     columns, target = np.ascontiguousarray(reduced[:, :-1].T), np.ascontiguousarray(reduced[:, -1])
     best = nnls(columns.T, target, maxiter=30 * columns.shape[0])[0]
+    residual = target - best @ columns
+    distance = np.sqrt(max(largest - residual @ residual, np.finfo(float).tiny))
     functions = np.ascontiguousarray(functions / scale)
     # First guess of λ for a function r·x: distance/‖y‖, with the shortest y that satisfies Aᵀ y = r. This λ is exact if
     # no unknown is bounded.

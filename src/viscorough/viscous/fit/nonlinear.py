@@ -8,6 +8,7 @@ determine the medium, and the medium predicts the record (viscous.fit.records).
   steps towards such a fit to the tangent of the prediction, which are shortened until the sum of squares decreases.
 - `with_finer_times` refines the grid of times at the elements that are present.
 - `with_free_times` also fits the times of the elements that are present.
+- `fit_without_drift` fits a medium for a drift of 0.
 - `fit_springpot` fits the two parameters of a springpot.
 """
 
@@ -169,6 +170,12 @@ def with_free_times(record: Record, fit: ElementFit) -> ElementFit:
     all_amounts = np.concatenate([amounts[:leading], np.zeros(np.count_nonzero(apart)), amounts[leading:]])
     order = np.argsort(all_times)
     return _at(record, all_times[order], np.append(all_amounts[:leading], all_amounts[leading:][order]), shift)
+
+
+def fit_without_drift(record: Record, times: Array) -> ElementFit:
+    """Return the best medium of elements with given times for a drift of 0, at which the drift remains an unknown."""
+    still = fit_elements(record.without_drift(), times)
+    return _at(record, times, still.amounts, np.append(still.shift, 0.0))
 
 
 def fit_springpot(record: Record, start: Springpot, shift: Array) -> tuple[Springpot, Array, Array]:

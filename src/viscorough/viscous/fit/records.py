@@ -108,7 +108,10 @@ class Record(ABC):
     lags : times of the measurements, counted from the start of the load, shape (rows,)
     load : prescribed load, with a sample at the time of each measurement
     place : index of the sample of the load at the time of each measurement, shape (rows,)
+    signed : derivatives of the measured or prescribed depth with respect to offset and drift, as far as they are
+        unknowns; the drift is the last of them
     shift_scales : change of offset and drift, as far as they are unknowns, that moves the depth by its largest value
+    drift : whether the drift is an unknown
     profile : whether the offset is fitted by separate fits at several offsets (`at_offset`); otherwise, if it is
         fitted, it is an unknown of any sign
     offset : offset that `at_offset` has subtracted from the depth
@@ -121,7 +124,9 @@ class Record(ABC):
     lags: Array
     load: Load
     place: Integers
+    signed: Array
     shift_scales: Array
+    drift: bool
     profile: bool
     offset: float
     largest: float
@@ -144,6 +149,12 @@ class Record(ABC):
     @abstractmethod
     def at_offset(self, offset: float) -> Self:
         """Return the record with an offset subtracted from the depth."""
+
+    def without_drift(self) -> Self:
+        """Return the record with a drift of 0, which is no longer an unknown."""
+        still = copy(self)
+        still.signed, still.shift_scales, still.drift = self.signed[:, :-1], self.shift_scales[:-1], False
+        return still
 
     @abstractmethod
     def start(self, times: Array) -> tuple[Array, Array]:
@@ -173,7 +184,7 @@ class DepthRecord(Record):
         self.signed = shift._replace(offset=False).columns(self.lags)
         self.largest = depth.max()
         self.shift_scales = self.largest / np.abs(self.signed).max(axis=0)
-        self.profile, self.offset = shift.offset, 0.0
+        self.drift, self.profile, self.offset = shift.drift, shift.offset, 0.0
         self.resolution = _ROUNDING * self.largest
 
     def at_offset(self, offset: float) -> Self:
@@ -233,7 +244,7 @@ class RecedingRecord(Record):
         self.lags = load.time[place] - load.time[0]
         self.signed = shift.columns(self.lags)
         # Fits at many offsets would take too long.
-        self.profile, self.offset, self.largest = False, 0.0, depth.max()
+        self.drift, self.profile, self.offset, self.largest = shift.drift, False, 0.0, depth.max()
         self.shift_scales = self.largest / np.abs(self.signed).max(axis=0)
         self.resolution = _RESOLUTION * self.largest
         row = row_of_springs(curve)
@@ -338,10 +349,10 @@ class ForceRecord(Record):
     def __init__(self, curve: LoadingCurve, load: Load, place: Integers, force: Array, shift: Shift) -> None:
         self.load, self.place, self.measured = load, place, force
         self.lags = load.time[place] - load.time[0]
-        self.drifts = shift._replace(offset=False).columns(load.time - load.time[0])
-        self.shift_scales = load.values.max() / np.abs(self.drifts).max(axis=0)
+        self.signed = shift._replace(offset=False).columns(load.time - load.time[0])
+        self.shift_scales = load.values.max() / np.abs(self.signed).max(axis=0)
         self.resolution = _RESOLUTION * np.abs(force).max()
-        self.profile, self.offset, self.largest = shift.offset, 0.0, load.values.max()
+        self.drift, self.profile, self.offset, self.largest = shift.drift, shift.offset, 0.0, load.values.max()
         row = row_of_springs(curve)
         most = _FEWER_SPRINGS if shift.offset else _SPRINGS_AT_DEPTH
         self.gap, self.spring = merged(row.gap, row.stiffness, self.largest, most)
@@ -393,13 +404,13 @@ class ForceRecord(Record):
             return path, np.searchsorted(self.gap, path.depth[path.place])
         spectrum = RelaxationSpectrum(0.0, float(amounts[0]), amounts[1:][used], times[used])
         law = spectrum_of(spectrum, retardation_spectrum(spectrum))
-        depth = self.load.values - self.drifts @ shift
+        depth = self.load.values - self.signed @ shift
         moved = move_row(self.gap, self.spring, np.inf, law, self.load.time, depth, by_depth=True)
         return path, moved.in_contact[self.place]
 
     def _path(self, shift: Array) -> _Path:
         """Return the depth, minus the drift, as a function of time, with samples where springs first touch."""
-        depth = self.load.values - self.drifts @ shift
+        depth = self.load.values - self.signed @ shift
         # Add a sample out of contact before the first sample. So a load that starts at a depth starts with a step.
         time, depth = np.append(self.load.time[0], self.load.time), np.append(min(depth[0], 0.0), depth)
         gap = self.gap

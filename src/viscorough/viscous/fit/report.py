@@ -12,7 +12,13 @@ from viscorough.media.kinds import Prony, Springpot
 from viscorough.media.spectra import RelaxationSpectrum
 from viscorough.media.table import FreeForm, free_form_of
 from viscorough.viscous.fit.linear import extremes
-from viscorough.viscous.fit.nonlinear import ElementFit, fit_elements, fit_springpot, with_free_times
+from viscorough.viscous.fit.nonlinear import (
+    ElementFit,
+    fit_elements,
+    fit_springpot,
+    fit_without_drift,
+    with_free_times,
+)
 from viscorough.viscous.fit.offset import crossing, fits_of_offsets
 from viscorough.viscous.fit.records import ForceRecord, Record
 
@@ -178,19 +184,22 @@ def _intervals(
     if np.isnan(distance):
         return *np.full((2, time.size), np.nan), *np.full((2, fitted), np.nan)
     squares = np.array([fit.squares for _, fit in fits])
-    excess = squares - squares.min() - distance**2
+    largest = squares.min() + distance**2
+    excess = squares - largest
     inside = np.flatnonzero(excess <= 0)
     chosen = np.unique(np.append(inside[np.linspace(0, inside.size - 1, _INSIDE).astype(int)], squares.argmin()))
     lows, highs = [], []
     for record, fit in (fits[k] for k in chosen):
-        values, tangent = _columns(record, fit.times, time), fit.tangent
-        left = np.sqrt(distance**2 - (fit.squares - squares.min()))
-        low, high = extremes(tangent.columns, fit.target(record.measured), values, left, tangent.signed)
-        # Include the values of the fit itself. At an end of the interval of the offset, the interval contains no other
-        # values.
-        own = np.append(values @ fit.amounts, fit.shift)
-        lows.append(np.minimum(low, own))
-        highs.append(np.maximum(high, own))
+        # The tangent at a fit with a large drift, which slow creep compensates, misses the media of small drifts.
+        others = [fit_without_drift(record, fit.times)] if record.drift else []
+        for near in [fit, *(other for other in others if other.squares <= largest)]:
+            values, tangent = _columns(record, near.times, time), near.tangent
+            low, high = extremes(tangent.columns, near.target(record.measured), values, largest, tangent.signed)
+            # Include the values of the fit itself. At an end of the interval of the offset, the interval contains no
+            # other values.
+            own = np.append(values @ near.amounts, near.shift)
+            lows.append(np.minimum(low, own))
+            highs.append(np.maximum(high, own))
     low, high = np.min(lows, axis=0), np.max(highs, axis=0)
     ends_low, ends_high = low[time.size :], high[time.size :]
     if profile:

@@ -28,7 +28,7 @@ def test_extremes_agree_with_a_nested_search(shape):
     matrix = random.normal(size=shape) + 0.5
     target = matrix @ np.maximum(random.normal(size=shape[1]), 0) + 0.3 * random.normal(size=shape[0])
     functions = matrix[:3] * 0.7  # the rows determine these functions
-    low, high = extremes(matrix, target, functions, 0.4)
+    low, high = extremes(matrix, target, functions, nnls(matrix, target)[1] ** 2 + 0.4**2)
     for ends, sign in ((low, -1), (high, 1)):
         expected = [farthest(matrix, target, row, 0.4, sign) for row in functions]
         np.testing.assert_allclose(ends, expected, rtol=0, atol=0.01 * 0.4 * 3)
@@ -36,7 +36,7 @@ def test_extremes_agree_with_a_nested_search(shape):
 
 def test_extreme_ends_at_an_active_bound():
     """x ≥ 0 keeps the smallest x at 0, although the residual would allow less."""
-    low, high = extremes(np.eye(2), np.array([0.1, 1.0]), np.eye(2), 0.5)
+    low, high = extremes(np.eye(2), np.array([0.1, 1.0]), np.eye(2), 0.5**2)
     np.testing.assert_allclose(low, [0.0, 0.5], atol=0.01)
     np.testing.assert_allclose(high, [0.6, 1.5], atol=0.01)
 
@@ -53,9 +53,9 @@ def test_unknowns_of_any_sign_are_differences_of_non_negative_ones():
     target = matrix @ [0.0, 1.0, 0.0, 2.0, 0.5] + signed @ [-1.5, 0.7] + 0.1 * random.normal(size=14)
     both = np.hstack([matrix, signed, -signed])
     x, z = non_negative(matrix, target, signed)
-    best = nnls(both, target)[0]
+    best, least = nnls(both, target)
     np.testing.assert_allclose(np.append(x, z), np.append(best[:5], best[5:7] - best[7:]), atol=1e-9)
-    low, high = extremes(matrix, target, np.eye(5)[:1], 0.4, signed)
+    low, high = extremes(matrix, target, np.eye(5)[:1], least**2 + 0.4**2, signed)
     rows = np.zeros((3, 9))
     rows[0, 0], rows[1, [5, 7]], rows[2, [6, 8]] = 1.0, (1.0, -1.0), (1.0, -1.0)
     for k, row in enumerate(rows):
@@ -70,11 +70,11 @@ def test_extremes_of_nearly_dependent_columns_reach_the_distance():
     matrix, signed = creep_columns(times, np.geomspace(0.007, 180, 46)), times[:, None]
     noise = 1e-3 * np.random.default_rng(7).standard_normal(50)
     target = -np.expm1(-times / 2.5) + 2e-4 * times + noise
-    _, high = extremes(matrix, target, matrix[:0], 5e-3, signed)
 
-    def excess(drift):
+    def squares(drift):
         x, _ = non_negative(matrix, target - drift * times)
         return np.sum((matrix @ x + drift * times - target) ** 2)
 
     _, (best,) = non_negative(matrix, target, signed)
-    assert excess(high[0]) - excess(best) == pytest.approx(5e-3**2, rel=0.03)
+    _, high = extremes(matrix, target, matrix[:0], squares(best) + 5e-3**2, signed)
+    assert squares(high[0]) - squares(best) == pytest.approx(5e-3**2, rel=0.03)

@@ -37,6 +37,8 @@ _FIRST_LEVEL = 1e-3
 # A misfit above a limit gives a warning. If the scatter is known, random errors alone stay below the limit with the
 # probability _SIGNIFICANT. If it is not known, the limit is the share _SMALL_MISFIT of the largest value.
 _SIGNIFICANT, _SMALL_MISFIT = 0.999, 1e-3
+# Largest time, load and measured value, and the inverse of the smallest: products of two of them have finite squares.
+_LARGEST_SIZE = 1e60
 # If the scatter of the depth is not known, the zero of the depth is assumed to be wrong by this share of the largest
 # depth.
 _ASSUMED_OFFSET = 1e-3
@@ -156,6 +158,15 @@ def _record(
     the force decreases or a drift is fitted.
     """
     load, place = load.with_times(times)
+    lags = times - load.time[0]
+    for name, values in (("time", lags), ("depth" if load.by_depth else "force", load.values), ("value", measured)):
+        size = np.abs(values).max()
+        if size > 0 and not 1 / _LARGEST_SIZE <= size <= _LARGEST_SIZE:
+            text = f"allowed: from {1 / _LARGEST_SIZE:g} to {_LARGEST_SIZE:g}; check the units"
+            raise ValueError(f"record: a largest {name} of {size:.3g}, whose square leaves double precision; {text}")
+    if not (load.values if load.by_depth else measured).max() > 0:
+        quantity = "force, because no depth is above 0" if load.by_depth else "depth above 0"
+        raise ValueError(f"record: no {quantity}; allowed: records that show how the medium creeps or relaxes")
     arguments = curve, load, place, measured, shift
     if load.by_depth:
         _check_within(curve, load.time, load.values)

@@ -359,7 +359,9 @@ def test_records_of_other_histories_that_show_nothing_are_refused():
     with refused("record: no force"):
         identify_medium(FEWER_LEVELS, load, TIMES, np.zeros(TIMES.size))
     with refused("record: no force"):
-        identify_medium(FEWER_LEVELS, Load([0.0, 60.0], depth=[0.0, 0.0]), TIMES, np.ones(TIMES.size))
+        identify_medium(FEWER_LEVELS, Load([0.0, 60.0], depth=[0.0, 0.0]), TIMES, np.ones(TIMES.size), fit_drift=True)
+    with refused("record: a largest value of 1e-215, whose square leaves double precision"):
+        identify_medium(FEWER_LEVELS, load, TIMES, np.full(TIMES.size, 1e-215), fit_drift=True)
     with refused("record: depth 11 .* beyond the curve's last level"):
         identify_medium(FEWER_LEVELS, Load([0.0, 60.0], depth=[0.0, 11.0]), TIMES, np.ones(TIMES.size))
     with refused("the zero of the depth is off by .* or more; allowed: errors below"):

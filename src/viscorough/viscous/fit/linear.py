@@ -59,7 +59,9 @@ def _with_signed(matrix: Array, target: Array, signed: Array | None) -> tuple[Ar
     """
     if signed is None or not signed.shape[1]:
         return matrix, target, np.empty(0)
-    bounds = -_FAR * np.linalg.norm(target) / np.linalg.norm(signed, axis=0)
+    norms = np.linalg.norm(signed, axis=0)
+    # An unknown without an effect on the residual is 0.
+    bounds = -_FAR * np.divide(np.linalg.norm(target), norms, out=np.zeros_like(norms), where=norms > 0)
     return np.hstack([matrix, signed]), target - signed @ bounds, bounds
 
 
@@ -67,6 +69,8 @@ def extremes(
     matrix: Array, target: Array, functions: Array, largest: float, signed: Array | None = None
 ) -> tuple[Array, Array]:
     """Return the smallest and the largest value of linear functions of x ≥ 0 near the best fit of matrix x to target.
+
+    They are nan for functions that the target does not determine.
 
     functions : coefficients r of each function r·x, shape (functions, unknowns)
     largest : largest ‖matrix x − target‖² of an x near the best fit, above the smallest
@@ -89,11 +93,13 @@ def extremes(
     distance = np.sqrt(max(largest - residual @ residual, np.finfo(float).tiny))
     functions = np.ascontiguousarray(functions / scale)
     # First guess of λ for a function r·x: distance/‖y‖, with the shortest y that satisfies Aᵀ y = r. This λ is exact if
-    # no unknown is bounded.
-    multiplier = distance / np.linalg.norm(np.linalg.lstsq(columns, functions.T, rcond=1e-10)[0], axis=0)
+    # no unknown is bounded. A function of unknowns without an effect on the residual is not determined.
+    length = np.linalg.norm(np.linalg.lstsq(columns, functions.T, rcond=1e-10)[0], axis=0)
+    multiplier = np.divide(distance, length, out=np.zeros_like(length), where=length > 0)
     shift = np.append(np.zeros(given), bounds)
     low, high = (
-        _extremes(columns, target, functions, best, sign * multiplier, distance) + shift for sign in (-1.0, 1.0)
+        np.where(length > 0, _extremes(columns, target, functions, best, sign * multiplier, distance) + shift, np.nan)
+        for sign in (-1.0, 1.0)
     )
     return low, high
 

@@ -234,10 +234,11 @@ def _solution(
     """
     from scipy.optimize import least_squares  # this import takes long
 
-    found: Any = least_squares(
-        residual, start, jac=derivatives or "2-point", bounds=bounds, method="dogbox", ftol=_CLOSE, xtol=_CLOSE,
-        gtol=None, max_nfev=_EVALUATIONS, diff_step=_STEP,
-    )  # fmt: skip
+    with np.errstate(invalid="ignore"):  # infinite distances to a bound, in directions without a gradient
+        found: Any = least_squares(
+            residual, start, jac=derivatives or "2-point", bounds=bounds, method="dogbox", ftol=_CLOSE, xtol=_CLOSE,
+            gtol=None, max_nfev=_EVALUATIONS, diff_step=_STEP,
+        )  # fmt: skip
     return np.clip(found.x, *bounds)
 
 

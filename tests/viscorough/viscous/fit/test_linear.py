@@ -78,3 +78,11 @@ def test_extremes_of_nearly_dependent_columns_reach_the_distance():
     _, (best,) = non_negative(matrix, target, signed)
     _, high = extremes(matrix, target, matrix[:0], squares(best) + 5e-3**2, signed)
     assert squares(high[0]) - squares(best) == pytest.approx(5e-3**2, rel=0.03)
+
+
+def test_function_of_unknowns_without_effect_is_not_determined():
+    matrix, signed = np.array([[1.0, 0.0], [2.0, 0.0]]), np.zeros((2, 1))
+    low, high = extremes(matrix, np.array([1.0, 2.0]), np.eye(2), 0.1, signed)
+    np.testing.assert_array_equal(np.isnan(low), [False, True, True])
+    np.testing.assert_array_equal(np.isnan(high), [False, True, True])
+    np.testing.assert_array_equal(non_negative(matrix, np.array([1.0, 2.0]), signed)[1], [0.0])

@@ -83,9 +83,8 @@ rule compare_reduction:
     resources:
         mem_mb=1000,
     params:
-        **chosen("discs", "elements", "tolerance"),
+        **chosen("discs", "elements", "realizations", "tolerance"),
         **config["reduction"],
-        realizations=config["variants"]["realizations"],
         hursts=config["discs"]["hurst"],
         seed=config["seed"],
         source=digest("compare_reduction"),

@@ -140,9 +140,7 @@ class Variant(Section):
 class Variants(Section):
     """Further ensembles of discs (h = L = 1 m), each with some choices of `surface` changed."""
 
-    realizations: REALIZATIONS = meaning(
-        "surfaces per variant and Hurst exponent; as many are compared with lines one by one, see `reduction`"
-    )
+    realizations: REALIZATIONS = meaning("surfaces per variant and Hurst exponent")
     batch: BATCH = meaning("realizations per job")
     cases: several(Variant, 0, 20, once="name") = meaning("the variants; each has a name and at least one further key")
 

@@ -19,7 +19,7 @@ from viscorough.media.medium import Medium
 from viscorough.media.spectra import Spectrum
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.viscous.move import RowMotion
-from viscorough.viscous.row import ROUNDING, RowOfSprings
+from viscorough.viscous.row import ROUNDING, RowOfSprings, elements_in_contact
 
 
 class RefinedMotion(NamedTuple):
@@ -68,9 +68,8 @@ def _at_depth(
         force = np.where(corrected, np.maximum(force + excess, 0.0), force)
     front = np.where(moved.largest, moved.depth, _front(row, moved))
     unknown = (count > 0) & (front > 0) & (front < row.first_depth) & (moved.force > 0)
-    return RefinedMotion(
-        moved.depth, np.where(unknown, np.nan, force), moved.velocity, _contact_fraction(row, load, moved)
-    )
+    fraction = _contact_fraction(curve, row, load, moved, moved.depth)
+    return RefinedMotion(moved.depth, np.where(unknown, np.nan, force), moved.velocity, fraction)
 
 
 def _under_force(
@@ -93,7 +92,7 @@ def _under_force(
     front = _front(row, moved)
     unknown = ~corrected & (count > 0) & (front > 0) & (front < row.first_depth) & (moved.force > 0)
     depth, velocity = (np.where(unknown, np.nan, values) for values in (depth, velocity))
-    return RefinedMotion(depth, moved.force, velocity, _contact_fraction(row, load, moved))
+    return RefinedMotion(depth, moved.force, velocity, _contact_fraction(curve, row, load, moved, at_curve))
 
 
 def _at_elastic_force(curve: LoadingCurve, row: RowOfSprings, creep: Array) -> tuple[Array, Array]:
@@ -121,10 +120,15 @@ def _front(row: RowOfSprings, moved: RowMotion) -> Array:
     return np.where(moved.in_contact > 0, row.gap[np.maximum(moved.in_contact, 1) - 1], 0.0)
 
 
-def _contact_fraction(row: RowOfSprings, load: Load, moved: RowMotion) -> Array:
-    """Return the share of the elements that are in contact at each sample."""
+def _contact_fraction(curve: LoadingCurve, row: RowOfSprings, load: Load, moved: RowMotion, front: Array) -> Array:
+    """Return the share of the elements that are in contact at each sample.
+
+    front : depth of the curve at which the contact is as large as at each sample; used only where `moved.largest`
+    """
     count = moved.in_contact
-    fraction = np.where(count > 0, row.contact_fraction[np.maximum(count, 1) - 1], 0.0)
+    touched = np.where(count > 0, row.contact_fraction[np.maximum(count, 1) - 1], 0.0)
+    known = np.where(moved.largest & (count > 0) & np.isfinite(front), front, 0.0)
+    fraction = np.maximum(touched, elements_in_contact(curve, known) / curve.elements)
     if load.by_depth:
         return fraction
     # Under no force the indenter rests on the first spring, which does not count as contact.

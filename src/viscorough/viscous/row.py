@@ -125,7 +125,7 @@ def _between_levels(curve: LoadingCurve) -> Array:
     They include all other levels. The rows of the array are depths, forces and numbers of elements in contact.
     """
     depth, force, stiffness, count = curve.depth, curve.force, curve.stiffness, curve.contact_count
-    joined, rise = np.diff(count), np.diff(depth)
+    joined = np.diff(count)
     tangents = (joined >= 0) & (joined <= 1)
     chords = np.ones(joined.size, int)
     deviation = np.diff(force) * np.maximum(-np.diff(1 / stiffness), 0) / 8
@@ -143,7 +143,7 @@ def _between_levels(curve: LoadingCurve) -> Array:
     depths = np.empty_like(forces)
     depths[is_level] = depth[1:]
     depths[~is_level] = curve.at_force(forces[~is_level])[0]
-    counts = count[interval] + joined[interval] * (depths - depth[interval]) / rise[interval]
+    counts = elements_in_contact(curve, depths)
 
     meeting = _meeting_of_tangents(curve, tangents)
     between = np.flatnonzero(np.isfinite(meeting))
@@ -152,6 +152,21 @@ def _between_levels(curve: LoadingCurve) -> Array:
     forces = np.insert(forces, at, force[between] + stiffness[between] * (meeting[between] - depth[between]))
     counts = np.insert(counts, at, count[between + 1].astype(float))
     return np.array([depths, forces, counts])
+
+
+def elements_in_contact(curve: LoadingCurve, depth: Array) -> Array:
+    """Return the number of elements in contact at depths of a loading curve, not rounded.
+
+    Between levels that differ by several elements the number is linear in the depth, as it is from 0 to the first
+    level. Between levels that differ by one element it is the number of the lower level.
+    """
+    depths, counts = np.append(0.0, curve.depth), np.append(0.0, curve.contact_count)
+    joined = np.diff(counts, append=counts[-1])
+    joined[1:][(joined[1:] >= 0) & (joined[1:] <= 1)] = 0
+    # A depth that is a level except for rounding is the level.
+    below = np.clip(np.searchsorted(depths, depth * (1 + ROUNDING), "right") - 1, 0, depths.size - 1)
+    rise = np.diff(depths, append=np.inf)[below]
+    return counts[below] + joined[below] * np.maximum(depth - depths[below], 0.0) / rise
 
 
 def _meeting_of_tangents(curve: LoadingCurve, tangents: Mask) -> Array:

@@ -10,7 +10,7 @@ from scipy.integrate import quad, solve_ivp
 from support.contract import refused
 from support.curves import curve_of_body
 from support.media import MEDIA, TABLE_TIMES
-from viscorough import Load, Maxwell, kinetics, reference
+from viscorough import Load, Maxwell, indent, kinetics, reference, self_affine_disc
 
 RADIUS, VISCOSITY, FORCE = 1.7, 30.0, 0.03
 CURVE = curve_of_body(reference.sphere(RADIUS), np.geomspace(1e-6, 10, 71))
@@ -47,6 +47,21 @@ def test_times_of_the_levels_reproduce_the_levels():
         levels = kinetics(curve, force, VISCOSITY, CURVE.force * VISCOSITY / force)
         np.testing.assert_allclose(levels.depth, CURVE.depth, rtol=1e-13)
         np.testing.assert_allclose(levels.velocity, force / (VISCOSITY * CURVE.stiffness), rtol=1e-12)
+
+
+def test_contact_between_few_levels_is_the_contact_of_the_curve():
+    """Between the last two levels the curve is almost straight, so no spring of the row touches there."""
+    disc = self_affine_disc(0.7, 17, rms=0.05, seed=1)
+    whole = indent(disc, until_fraction=1.0).force[-1]
+    curve = indent(disc, forces=whole * np.array([1e-3, 1e-2, 1e-1, 1e3]))
+    at_levels = kinetics(curve, 1.0, 1.0, curve.force).contact_fraction
+    np.testing.assert_allclose(at_levels, curve.contact_fraction, rtol=1e-13)
+    assert at_levels[-1] == 1
+    midway = np.mean(curve.depth[-2:])
+    by_depth = kinetics(curve, depth=[0.0, midway], medium=1.0, times=[0.0, 1.0]).contact_fraction[-1]
+    under_force = kinetics(curve, 1.0, 1.0, [np.interp(midway, curve.depth, curve.force)]).contact_fraction[0]
+    assert by_depth == pytest.approx(np.mean(curve.contact_fraction[-2:]), rel=1e-9)
+    assert under_force == pytest.approx(by_depth, rel=1e-2)
 
 
 def test_sum_of_many_samples_reaches_the_last_level():

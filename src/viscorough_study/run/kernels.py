@@ -58,14 +58,17 @@ def _events():
 
 
 def _exact_contacts():
-    """Solve contacts to a small tolerance, and a contact at a given depth."""
+    """Solve contacts to a small tolerance and in double precision, and a contact at a given depth."""
     from viscorough.contact.loading_path import indent
     from viscorough.contact.one_contact import contact_at
+    from viscorough.contact.options import SolverOptions
     from viscorough.surfaces.self_affine import self_affine_disc
 
     disc = self_affine_disc(0.6, 129, seed=0)
     contact_at(disc, depth=0.5)
     indent(disc, depths=[0.5, 1.0, 2.0], tolerance=1e-10)
+    double = SolverOptions(dense_contacts=0, dense_interactions=0, precision="double", exact_gap_below=0.0)
+    indent(disc, depths=[0.5, 1.0, 2.0], tolerance=1e-6, options=double)
 
 
 def _motion():

@@ -4,6 +4,7 @@ python workflow/run_with_progress.py -- snakemake --cores 2 -- all
 """
 
 import contextlib
+import fcntl
 import os
 import re
 import signal
@@ -73,11 +74,15 @@ def run(command, output=OUTPUT):
     try:
         output.parent.mkdir(parents=True, exist_ok=True)
         check_output(output)
+        file = _opened(output)
     except (OSError, ValueError) as error:
         _show(f"Error: {output.resolve()}: not written ({reason(error)}); a folder that can be written is needed\n")
         return 1
+    if file is None:
+        _show(f"Error: {output.resolve()}: another run writes it; wait until that run has ended, or stop it\n")
+        return 1
     piped = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "encoding": "utf-8", "errors": "replace"}
-    with open(output, "w", encoding="utf-8") as file, subprocess.Popen(command, **piped) as process:
+    with file, subprocess.Popen(command, **piped) as process:
         stopped = []
 
         def stop(number, _frame):
@@ -103,6 +108,20 @@ def run(command, output=OUTPUT):
     elif code:
         _show("".join(f"{line}\n" for line in _errors(output)))
     return code
+
+
+def _opened(output):
+    """Return the output file, open and empty; return None if another run is writing it."""
+    file = output.open("a", encoding="utf-8")  # this mode keeps what the other run has written
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        file.close()
+        return None
+    except OSError:
+        pass  # some network file systems have no locks
+    file.truncate(0)
+    return file
 
 
 def _width():

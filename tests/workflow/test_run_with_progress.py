@@ -102,6 +102,16 @@ def test_errors_of_snakemake_itself_are_shown(run, capfd):
     assert capfd.readouterr().err.splitlines() == ["one", "two", "Full output: results/run.log"]
 
 
+def test_a_second_run_is_refused_and_keeps_the_output_of_the_first(run):
+    second = "import run_with_progress; raise SystemExit(run_with_progress.run(['true']))"
+    script = (
+        f"import sys, subprocess; sys.path.append({str(ROOT / 'workflow')!r}); print('first', flush=True); {second}"
+    )
+    assert run(script) == 1
+    assert "another run writes it; wait until that run has ended, or stop it" in run_with_progress.OUTPUT.read_text()
+    assert run_with_progress.OUTPUT.read_text().startswith("first\n")
+
+
 def test_summary_is_three_lines(tmp_path):
     (tmp_path / "tables").mkdir()
     rows = [

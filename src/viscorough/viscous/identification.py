@@ -276,8 +276,7 @@ def _check_within(curve: LoadingCurve, times: Array, depth: Array) -> None:
         where = int(np.argmax(depth > curve.depth[-1]))
         raise ValueError(
             f"record: depth {depth[where]:.6g} at time {times[where]:.6g} is beyond the curve's last level; allowed: "
-            f"up to {curve.depth[-1]:.6g}; indent further, with {argument('until_fraction', 1)} or a level "
-            f"at that depth ({argument('depths')})"
+            f"up to {curve.depth[-1]:.6g}; indent further, with {argument('until_fraction', 1)}"
         )
 
 

@@ -305,7 +305,7 @@ def _check_depths(curve: LoadingCurve, depths: Array) -> None:
     if depths.max() > last * (1 + ROUNDING) and curve.contact_count[-1] < curve.elements:
         raise ValueError(
             f"{_load_name('depth')}: {depths.max():g} is beyond the curve's last level; allowed: up to {last:g}; "
-            f"indent further, with {argument('until_fraction', 1)} or a level at that depth ({argument('depths')})"
+            f"indent further, with {argument('until_fraction', 1)}"
         )
 
 
@@ -317,7 +317,7 @@ def _check_creep(curve: LoadingCurve, row: RowOfSprings, times: Array, creep: Ar
         raise ValueError(
             f"{_load_name('force')}: at time {times[where]:g} the creep ∫J dF is {creep[where]:.6g}, beyond the "
             f"curve's last level; allowed: up to {curve.force[-1]:.6g}; indent further, with "
-            f"{argument('until_fraction', 1)} or a level at F/G = {enough:.3g} ({argument('forces')})"
+            f"{argument('until_fraction', 1)} or, in units of F/G, {argument('until_force', f'{enough:.3g}')}"
         )
 
 

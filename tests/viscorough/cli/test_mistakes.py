@@ -98,7 +98,7 @@ MISTAKES = [
     (f"{CONTACT.replace('--spacing 1', '--spacing 1e-170')} --depth 1", "contact: a spacing of 1e-170 is too small to"),
     (
         f"{KINETICS} --force 1e6 --viscosity 1 --times 1e6",
-        "indent further, with --until-fraction 1 or a level at F/G =",
+        "indent further, with --until-fraction 1 or, in units of F/G, --until-force ",
     ),
     (f"{KINETICS} --force 1e6 --viscosity 1 --times 1e6", "kinetics: --force or --force-history: at time"),
     *[
@@ -111,7 +111,7 @@ MISTAKES = [
     (f"{KINETICS} --depth-history deep.csv --viscosity 1", "--depth-history: 4e+06 is beyond the curve's last level"),
     (
         "creep curve.nc deep.csv --force 1 -o m.yaml",
-        "indent further, with --until-fraction 1 or a level at that depth (--d",
+        "indent further, with --until-fraction 1",
     ),
     (f"{ESTIMATE} --rms 1 --force 1 --medium medium.yaml -o link.nc", "would replace the medium"),
     (GENERATE, "either --elements (a disc) or --points (a line) is needed"),

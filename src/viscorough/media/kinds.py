@@ -66,6 +66,8 @@ _LISTS = ("moduli", "relaxation_times")
 # Error of a motion in a springpot after a turn of the load, because J is not represented at earlier times, in units of
 # about 1e-3; see `Springpot.spectrum`. A contact that begins late in an interval between two turns increases the error.
 _SHORTEST = 1e-7
+# Largest ratio of the duration of a load to its shortest interval in a springpot: for larger ratios numbers overflow.
+_LONGEST = 1e150
 
 
 @dataclass(frozen=True)
@@ -363,7 +365,14 @@ class Springpot(Medium):
         They creep like the springpot from the time s up to the duration of the load. The share s/T of the shortest
         interval T between two turns of the load satisfies (s/T)^(1+a) = _SHORTEST: before the time s, J errs by about
         J(s) ~ s^a, and the integral of this error over time, ~ s^(1+a), affects the motion after a turn.
+
+        Raises ValueError if the duration is more than _LONGEST times the shortest interval.
         """
+        if load.duration > _LONGEST * load.shortest_interval:
+            raise ValueError(
+                f"times: intervals from {load.shortest_interval:g} to {load.duration:g} in a springpot; allowed: the "
+                f"longest up to {_LONGEST:g} times the shortest; times within that range are needed"
+            )
         shortest = load.shortest_interval * _SHORTEST ** (1 / (1 + self.exponent))
         retardation = power_law_spectrum(self.modulus, self.exponent, shortest, load.duration or 1.0)
         return spectrum_of(relaxation_spectrum(retardation), retardation), POWER_LAW_ERROR

@@ -10,7 +10,7 @@ from scipy.integrate import quad, solve_ivp
 from support.contract import refused
 from support.curves import curve_of_body
 from support.media import MEDIA, TABLE_TIMES
-from viscorough import Load, Maxwell, indent, kinetics, reference, self_affine_disc
+from viscorough import Load, Maxwell, Springpot, indent, kinetics, reference, self_affine_disc
 
 RADIUS, VISCOSITY, FORCE = 1.7, 30.0, 0.03
 CURVE = curve_of_body(reference.sphere(RADIUS), np.geomspace(1e-6, 10, 71))
@@ -136,6 +136,13 @@ def test_default_times_are_a_hundred_over_the_whole_curve(name):
     assert result.depth[-1] == pytest.approx(min(CURVE.depth[-1], depth_of_sphere(end)), rel=2e-3)
 
 
+@pytest.mark.parametrize("exponent", [0.07, 0.2, 0.3, 0.6, 0.95])
+def test_default_times_in_a_springpot_end_before_the_last_level(exponent):
+    """J of the springs and dashpots that replace a springpot may be larger than its J by 1e-8."""
+    result = kinetics(dataclasses.replace(CURVE, tolerance=1e-3), FORCE, Springpot(2.0, exponent))
+    assert result.depth[-1] == pytest.approx(CURVE.depth[-1], rel=1e-6)
+
+
 # ---- refusals
 
 
@@ -161,6 +168,7 @@ def test_default_times_are_a_hundred_over_the_whole_curve(name):
         ({"times": np.array(["0", "1", "2"])}, "times: texts; real numbers are needed"),
         ({"times": [-1.0, 1.0]}, "start at -1; allowed: from 0 on"),
         ({"medium": VISCOSITY, "times": [0.0, 1e9]}, "allowed: up to"),
+        ({"medium": Springpot(2.0, 0.05), "times": None}, "times: intervals from 1.22856e-126 to"),
         ({"medium": MEDIA["table"], "times": [101.0]}, "allowed: up to the last time of the table, 100"),
         ({"medium": MEDIA["table"], "force": [0.01, 0.01], "times": [0.0, 101.0]}, "last time of the table, 100"),
     ],

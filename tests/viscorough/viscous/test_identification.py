@@ -360,6 +360,9 @@ def test_records_of_other_histories_that_show_nothing_are_refused():
         identify_medium(FEWER_LEVELS, load, TIMES, np.zeros(TIMES.size))
     with refused("record: no force"):
         identify_medium(FEWER_LEVELS, Load([0.0, 60.0], depth=[0.0, 0.0]), TIMES, np.ones(TIMES.size), fit_drift=True)
+    with refused("record: no depth before the force decreases"):
+        unload = Load([0.0, 2.0, 30.0, 60.0], force=[0.0, 1.0, 1.0, 0.1])
+        identify_medium(FEWER_LEVELS, unload, TIMES, np.where(TIMES < 30, 0.0, 6 - 0.1 * TIMES))
     with refused("record: a largest value of 1e-215, whose square leaves double precision"):
         identify_medium(FEWER_LEVELS, load, TIMES, np.full(TIMES.size, 1e-215), fit_drift=True)
     with refused("record: depth 11 .* beyond the curve's last level"):

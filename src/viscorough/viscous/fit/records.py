@@ -268,6 +268,10 @@ class RecedingRecord(Record):
 
     def start(self, times: Array) -> tuple[Array, Array]:
         amounts, shift = self.grown.start(times)[0], np.zeros(self.shift_scales.size)
+        if not amounts.any():
+            raise ValueError(
+                "record: no depth before the force decreases; allowed: records that show how the medium creeps"
+            )
         if np.isnan(self.predicted(times, amounts, shift)).any():
             raise ValueError(
                 "record: in the medium that the rows before the decrease of the force show, the contact grows beyond "

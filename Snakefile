@@ -29,7 +29,8 @@ CASES = {"discs": DISCS, "lines": LINES, "measured": MEASURED}
 
 
 wildcard_constraints:
-    case="|".join(DISCS),
+    kind="discs|measured",
+    case="|".join([*DISCS, *MEASURED]),
     line="|".join(LINES),
     nested="|".join(NESTED),
     scan="|".join(MEASURED) or "no_scan",

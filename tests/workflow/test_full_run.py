@@ -75,7 +75,7 @@ def test_every_job_has_a_log_and_a_benchmark(finished_once):
     table = pd.read_csv(finished_once / "results/tables/rule_costs.csv").set_index("rule")
     assert {"tabulate_rule_costs", "make_page"} & set(table.index) == set(), "they run after the others"
     assert table["jobs"].sum() == number - 2 + 1, "and the compilation"
-    assert table.loc["indent_discs", "jobs"] == 6
+    assert table.loc["indent_surfaces", "jobs"] == 6
     assert (table["longest_s"] <= table["seconds"]).all()
     assert table["seconds"].is_monotonic_decreasing
 

@@ -16,7 +16,7 @@ from viscorough.surfaces.self_affine import self_affine_disc
 pytestmark = pytest.mark.long
 
 SCANS = {"ground_a", "ground_b", "polished_c"}
-MADE = {"prepare_measured", "indent_measured", "aggregate_curves", "evaluate_measured", "plot_measured"}
+MADE = {"prepare_measured", "indent_surfaces", "aggregate_curves", "evaluate_measured", "plot_measured"}
 MADE |= {"press_measured"}
 MADE |= {"tabulate_rule_costs", "make_page"}
 

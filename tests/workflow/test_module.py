@@ -40,7 +40,7 @@ def test_another_workflow_makes_a_figure_with_its_settings(finished_once, tmp_pa
     copy_kernels(finished_once, tmp_path)
     (tmp_path / "Snakefile").write_text(OTHER.format(snakefile=ROOT / "Snakefile"))
     planned = jobs(snakemake(tmp_path, "--dry-run", "--", "rough_figure_4"))
-    assert planned["rough_indent_discs"] == 2 * 2 + 2
+    assert planned["rough_indent_surfaces"] == 2 * 2 + 2
     snakemake(tmp_path, "--", "rough_figure_1")
     assert (tmp_path / "results/figures/fig1_surfaces.png").stat().st_size > 5000
 
@@ -71,7 +71,7 @@ def test_costs_count_only_the_run_under_any_prefix(finished, tmp_path):
     """Benchmark files left behind by other settings or targets do not count."""
     expected = pd.read_csv(finished / "results/tables/rule_costs.csv").set_index("rule")["jobs"]
     benchmarks = finished / "results/benchmarks"
-    others = ("plot_sizes.tsv", "evaluate_measured.tsv", "earlier.tsv", "indent_discs/h07000/0000-0001.tsv")
+    others = ("plot_sizes.tsv", "evaluate_measured.tsv", "earlier.tsv", "indent_surfaces/discs/h07000/0000-0001.tsv")
     for name in others:
         (benchmarks / name).parent.mkdir(exist_ok=True)
         shutil.copy(benchmarks / "judge_claims.tsv", benchmarks / name)

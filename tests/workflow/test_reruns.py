@@ -3,6 +3,7 @@
 import re
 
 import pytest
+import xarray as xr
 
 from support.workflow import (
     TARGETS,
@@ -14,11 +15,12 @@ from support.workflow import (
     settings_file,
     snakemake,
 )
+from viscorough_study.ensembles.surface_files import read_surfaces
 
 LAST = {"tabulate_rule_costs", "make_page"}  # these rules run again after any change
 BOUNDARY_ELEMENTS = {
     "indent_nested",
-    "indent_discs",
+    "indent_surfaces",
     "compare_direct",
     "compare_reduction",
     "compare_exact",
@@ -83,7 +85,7 @@ OF_CONVENTIONS |= {"plot_kinetics", "plot_master_curve", "plot_exponent", "plot_
         ({"scaling": {"stiffness_max": 0.25}}, FITS | {"fit_power_laws", "fit_sizes", "measure_plateaus"}),
         ({"figures": {"average": "arithmetic"}}, OF_CONVENTIONS),
         ({"ensemble": {"per_decade": 25}}, {"aggregate_curves"}),
-        ({"surface": {"period": 1.5}}, {"indent_discs", "generate_examples"}),
+        ({"surface": {"period": 1.5}}, {"generate_discs", "generate_examples"}),
     ],
     ids=["few steps", "scaling", "figures", "ensemble", "surface"],
 )
@@ -91,7 +93,7 @@ def test_changed_setting_reruns_only_the_rules_that_use_it(finished_once, tmp_pa
     planned = plan(finished_once, *TEST, settings_file(tmp_path, "changed", **changed))
     assert set(planned) == with_dependents(directly) | LAST
     if "surface" in changed:  # the variant has its own period; grids and their control have one batch each
-        assert planned["indent_discs"] == 2 + 2
+        assert planned["generate_discs"] == planned["indent_surfaces"] == 2 + 2
 
 
 def test_changed_lines_rerun_no_rule_that_uses_only_discs(finished_once, tmp_path, with_dependents):
@@ -107,7 +109,7 @@ def test_further_exponent_reruns_only_its_dependents(finished_once, tmp_path):
     cases = set(re.findall(r"^Job \d+: .*\b(h\d{5}\w*)", text, re.MULTILINE))
     assert cases == {"h06000", "h06000_longer_period"}
     planned = jobs(text)
-    assert (planned["indent_discs"], planned["reduce_lines"], planned["aggregate_curves"]) == (2, 2, 2)
+    assert (planned["indent_surfaces"], planned["reduce_lines"], planned["aggregate_curves"]) == (2, 2, 2)
     assert "compare_exact" not in planned
 
 
@@ -118,13 +120,26 @@ TENTH = {"combinations": [*KNOWN, KNOWN[0] | {"number": 10}]}
 @pytest.mark.parametrize("discs", [{"realizations": 4}, TENTH])  # a second batch of both Hurst exponents
 def test_additions_keep_existing_curves(finished_once, tmp_path, discs):
     planned = plan(finished_once, *TEST, settings_file(tmp_path, "more", discs=discs))
-    assert planned["indent_discs"] == 2
+    assert planned["generate_discs"] == planned["indent_surfaces"] == 2
     assert "reduce_lines" not in planned
 
 
 def test_new_seed_reruns_the_curves_of_all_random_surfaces(finished_once, tmp_path):
     planned = plan(finished_once, *TEST, settings_file(tmp_path, "seed", seed=5), "--", "curves")
-    assert planned == dict.fromkeys(("indent_discs", "reduce_lines"), 4)
+    assert planned == dict.fromkeys(("generate_discs", "indent_surfaces", "reduce_lines"), 4)
+
+
+def test_kept_surfaces_belong_to_the_curves(finished):
+    """Surfaces are made again, and kept, on request. Curves are made again only if their input changes."""
+    surfaces = "results/surfaces/discs/h04000/0000-0001.nc"
+    assert not (finished / surfaces).exists()
+    snakemake(finished, *TEST, "--", surfaces)
+    kept = [realization.rms["disc"] for _, realization, _ in read_surfaces(finished / surfaces)]
+    with xr.open_dataset(finished / "results/curves/discs/h04000/0000-0001.nc") as curves:
+        assert curves["rms_disc"].values.tolist() == kept
+    assert plan(finished, *TEST) == {}
+    planned = plan(finished, *TEST, settings_file(finished, "accurate", discs={"tolerance": 5e-3}))
+    assert (planned["generate_discs"], planned["indent_surfaces"]) == (5, 6)  # one file of discs exists
 
 
 def test_comments_rerun_nothing(editable):
@@ -139,7 +154,7 @@ def test_comments_rerun_nothing(editable):
 @pytest.mark.parametrize(
     ("files", "directly"),
     [
-        (["src/viscorough/contact/halfspace/column_fft.py"], BOUNDARY_ELEMENTS),
+        (["src/viscorough/contact/halfspace/column_fft.py"], BOUNDARY_ELEMENTS | {"generate_discs"}),  # temporary files
         (["workflow/scripts/require_accuracy.py"], {"require_accuracy"}),
         (
             [f"src/viscorough_study/{module}.py" for module in ("comparisons/direct_integration", "figures/exponent")],

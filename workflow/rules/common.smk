@@ -176,7 +176,7 @@ def paper(name):
     return read_paper(PROJECT / "resources" / "paper", name)
 
 
-# ---- params of jobs, by case
+# ---- inputs, params and memory of jobs, by case and by pool
 
 
 def batch_ensembles(table, case, batch):
@@ -189,6 +189,12 @@ def batch_ensembles(table, case, batch):
 def scan_value(name):
     """Return a function of the wildcards, for input or params, that returns a value from the case of a scan."""
     return lambda wildcards: MEASURED[wildcards.scan][name]
+
+
+def indentation_memory(wildcards):
+    """Return the memory [MB] of a job that indents the surfaces of a batch."""
+    case = CASES[wildcards.kind][wildcards.case]
+    return cases.measured_memory(case) if wildcards.kind == "measured" else cases.disc_memory(case)
 
 
 # ---- report and costs

@@ -2,54 +2,30 @@
 # reduction. A further rule makes ensembles: it brings the realizations of all cases in a pool to common abscissae.
 
 
-# A disc is generated in the same job that indents it, and not stored: all discs of the default run would take 1.6 GB.
-rule indent_discs:
-    output:
-        curves="results/curves/discs/{case}/{batch}.nc",
-    log:
-        "results/logs/indent_discs/{case}/{batch}.log",
-    benchmark:
-        "results/benchmarks/indent_discs/{case}/{batch}.tsv"
-    priority: 1  # start these long jobs early; at the end, short jobs then share the cores evenly
-    conda:
-        "../envs/viscorough.yaml"
-    resources:
-        mem_mb=lambda wildcards: cases.disc_memory(DISCS[wildcards.case]),
-    params:
-        ensembles=lambda wildcards: batch_ensembles(DISCS, wildcards.case, wildcards.batch),
-        seed=config["seed"],
-        indentation=lambda wildcards: DISCS[wildcards.case]["indentation"],
-        source=digest("indent_discs"),
-    message:
-        "Boundary elements, discs {wildcards.case}, realizations {wildcards.batch}"
-    script:
-        "../scripts/indent_discs.py"
-
-
-rule indent_measured:
+rule indent_surfaces:
     input:
         # These files are temporary and usually missing, but this rule must be rerun when the rule that makes them has
         # changed. If they were marked as ancient, existing files would not cause a rerun, and Snakemake would end
         # without an error and without the dependent results.
-        surfaces="results/surfaces/measured/{scan}/{batch}.nc",
+        surfaces="results/surfaces/{kind}/{case}/{batch}.nc",
     output:
-        curves="results/curves/measured/{scan}/{batch}.nc",
+        curves="results/curves/{kind}/{case}/{batch}.nc",
     log:
-        "results/logs/indent_measured/{scan}/{batch}.log",
+        "results/logs/indent_surfaces/{kind}/{case}/{batch}.log",
     benchmark:
-        "results/benchmarks/indent_measured/{scan}/{batch}.tsv"
-    priority: 2  # indent a surface before the next surface is prepared, which frees its disk space
+        "results/benchmarks/indent_surfaces/{kind}/{case}/{batch}.tsv"
+    priority: 2  # indent the surfaces of a batch before the next batch is generated, which frees their disk space
     conda:
         "../envs/viscorough.yaml"
     resources:
-        mem_mb=lambda wildcards: cases.measured_memory(MEASURED[wildcards.scan]),
+        mem_mb=indentation_memory,
     params:
-        indentation=scan_value("indentation"),
-        source=digest("indent_measured"),
+        indentation=lambda wildcards: CASES[wildcards.kind][wildcards.case]["indentation"],
+        source=digest("indent_surfaces"),
     message:
-        "Boundary elements, measured surface {wildcards.scan}"
+        "Boundary elements, {wildcards.kind} {wildcards.case}, realizations {wildcards.batch}"
     script:
-        "../scripts/indent_measured.py"
+        "../scripts/indent_surfaces.py"
 
 
 # A line is generated in the same job that reduces it, and not stored: a line of 4 000 000 points takes 16 MB.
@@ -60,7 +36,7 @@ rule reduce_lines:
         "results/logs/reduce_lines/{line}/{batch}.log",
     benchmark:
         "results/benchmarks/reduce_lines/{line}/{batch}.tsv"
-    priority: 2  # before the discs, so that the lines are aggregated while discs are indented
+    priority: 1  # as for discs, so that the lines are aggregated while the last discs are indented
     conda:
         "../envs/viscorough.yaml"
     resources:

@@ -1,8 +1,32 @@
-# Rules that write surfaces: the discs of Figure 1, and prepared measured surfaces, which are temporary (`--notemp` keeps
-# them). Other discs and lines are not stored (rules/curves.smk).
+# Rules that make the surfaces for boundary elements: generated discs and prepared measured surfaces, in files of the
+# same form. The files are temporary (`--notemp` keeps them). Each batch has a separate file: if batches shared a file,
+# adding a batch would make Snakemake compute the curves of all batches again. Lines are not stored
+# (rules/curves.smk).
 
 
-rule generate_examples:
+rule generate_discs:
+    output:
+        surfaces=temp("results/surfaces/discs/{case}/{batch}.nc"),
+    log:
+        "results/logs/generate_discs/{case}/{batch}.log",
+    benchmark:
+        "results/benchmarks/generate_discs/{case}/{batch}.tsv"
+    priority: 1  # start the long jobs that indent the discs early; at the end, short jobs then share the cores evenly
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=lambda wildcards: cases.generation_memory(DISCS[wildcards.case]["ensembles"]),
+    params:
+        ensembles=lambda wildcards: batch_ensembles(DISCS, wildcards.case, wildcards.batch),
+        seed=config["seed"],
+        source=digest("generate_discs"),
+    message:
+        "Discs {wildcards.case}, realizations {wildcards.batch}"
+    script:
+        "../scripts/generate_discs.py"
+
+
+use rule generate_discs as generate_examples with:
     output:
         surfaces="results/surfaces/examples.nc",
     log:
@@ -16,11 +40,9 @@ rule generate_examples:
     params:
         ensembles=cases.example_discs(config),
         seed=config["seed"],
-        source=digest("generate_examples"),
+        source=digest("generate_discs"),
     message:
         "Discs of Figure 1"
-    script:
-        "../scripts/generate_examples.py"
 
 
 rule prepare_measured:
@@ -33,7 +55,7 @@ rule prepare_measured:
         "results/logs/prepare_measured/{scan}.log",
     benchmark:
         "results/benchmarks/prepare_measured/{scan}.tsv"
-    priority: 1  # start the long jobs that indent the surfaces early
+    priority: 1  # as for discs
     conda:
         "../envs/viscorough.yaml"
     resources:

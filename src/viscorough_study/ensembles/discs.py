@@ -4,7 +4,6 @@ import numpy as np
 
 from viscorough.surfaces.indenter import Indenter
 from viscorough.surfaces.self_affine import cut_disc, square_of_disc
-from viscorough_study.ensembles.batches import Realization
 
 _LENGTHS = ("rms", "diameter", "rms_over", "length_unit")  # settings that scale a surface, but keep its shape
 
@@ -30,17 +29,3 @@ def ensemble_disc(elements, surface, seed):
     factor = surface["rms"] / rms[surface["rms_over"]]
     indenter = Indenter(disc * factor, surface["diameter"] / elements, length_unit=surface["length_unit"])
     return indenter, {name: float(height * factor) for name, height in rms.items()}
-
-
-def ensemble_discs(seed, name, spawn_key, surface, elements, numbers):
-    """Generate some discs of an ensemble, one at a time; yield (Realization, Indenter) for each.
-
-    seed : root seed; name : name of the ensemble
-    spawn_key : spawn key of the ensemble (run.seeds), to which the number of the realization is appended
-    surface, elements : arguments of `ensemble_disc`; surface also has the diameter
-    numbers : range of realizations, [first, end]; end is not included
-    """
-    for number in range(*numbers):
-        own_seed = np.random.SeedSequence(seed, spawn_key=(*spawn_key, number))
-        disc, rms = ensemble_disc(elements, surface, own_seed)
-        yield Realization(name, number, surface["hurst"], surface["diameter"], disc.spacing, rms), disc

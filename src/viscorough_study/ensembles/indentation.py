@@ -1,28 +1,6 @@
-"""Compute the loading curves of the surfaces of ensembles by boundary elements."""
-
-import logging
-import time
+"""Compute the loading curve of a surface of an ensemble by boundary elements."""
 
 from viscorough.contact.loading_path import indent
-from viscorough_study.ensembles.batches import batch_of_curves
-
-
-def curves_of_surfaces(surfaces, indentation):
-    """Compute the loading curves of several surfaces in their unit of length; return the Content of a NetCDF file.
-
-    surfaces : iterable of (settings of the ensemble, Realization, Indenter)
-    indentation : further arguments of `indent_realization`
-    """
-    members, ensembles = [], []
-    for ensemble, realization, indenter in surfaces:
-        start = time.perf_counter()
-        curve, until_x = indent_realization(realization, indenter, **indentation)
-        cost = curve.depth.size, curve.operator_applications, time.perf_counter() - start
-        logging.info("realization %d: %d levels, %d operator applications, %.2f s", realization.number, *cost)
-        members.append((curve, realization, until_x))
-        if ensemble not in ensembles:
-            ensembles.append(ensemble)
-    return batch_of_curves(members, {"indentation": indentation, "ensembles": ensembles})
 
 
 def indent_realization(realization, indenter, *, tolerance, until_fraction, until_x, whole_curves, short_until_x=None):

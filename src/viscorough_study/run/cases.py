@@ -280,10 +280,10 @@ def pool_jobs(tables):
 
     tables : {kind of surface: {name of a case: description}}
     """
-    # {kind of surface: Snakemake wildcard whose value is the name of a case}
-    names = {"discs": "case", "lines": "line", "measured": "scan"}
+    # {kind of surface: Snakemake wildcards whose value is the name of a case}
+    names = {"discs": ["case"], "lines": ["line"], "measured": ["case", "scan"]}
     return [
-        {names[kind]: case, "batch": batch, "pool": pool}
+        dict.fromkeys(names[kind], case) | {"batch": batch, "kind": kind, "pool": pool}
         for pool, kind in POOL_KINDS.items()
         for case, batch in pool_batches(tables, pool)
     ]
@@ -306,18 +306,17 @@ BASE_MEMORY = 700
 
 
 def generation_memory(ensembles):
-    """Return the memory [MB] for the generation of a disc: for the disc and the square from which it is cut."""
+    """Return the memory [MB] of a job that generates discs: for one disc and the square from which it is cut."""
     bytes_ = max((24 + 64 * ensemble["surface"]["period"] ** 2) * ensemble["elements"] ** 2 for ensemble in ensembles)
     return round(BASE_MEMORY + bytes_ / 1e6)
 
 
 def disc_memory(case):
-    """Return the memory [MB] of a job that generates and indents discs, one at a time.
+    """Return the memory [MB] of a job that indents discs.
 
     It includes the fields of the solver on a grid twice as wide as the disc.
     """
-    solver = round(BASE_MEMORY + 424 * max(ensemble["elements"] for ensemble in case["ensembles"]) ** 2 / 1e6)
-    return max(solver, generation_memory(case["ensembles"]))
+    return round(BASE_MEMORY + 424 * max(ensemble["elements"] for ensemble in case["ensembles"]) ** 2 / 1e6)
 
 
 def nested_memory(case):

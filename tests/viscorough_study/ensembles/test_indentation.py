@@ -20,11 +20,12 @@ INDENTATION = {"tolerance": 1e-3, "until_fraction": 1.0} | ENDS
 
 
 def curves_of(kind, folder, batch):
-    """Return {name: values} in the file of curves that the scripts make of a batch."""
+    """Return {name: values} in the file of curves that the scripts make of a batch; discs pass through a file."""
     if kind == "lines":
         load_script("reduce_lines").main(folder / "curves.nc", ensembles=batch, seed=7, until_x=30.0)
     else:
-        load_script("indent_discs").main(folder / "curves.nc", ensembles=batch, seed=7, indentation=INDENTATION)
+        load_script("generate_discs").main(folder / "surfaces.nc", ensembles=batch, seed=7)
+        load_script("indent_surfaces").main(folder / "surfaces.nc", folder / "curves.nc", indentation=INDENTATION)
     return {name: variable.values for name, variable in netcdf.read(folder / "curves.nc").variables.items()}
 
 
@@ -97,7 +98,7 @@ def test_curve_is_computed_from_the_exact_surface(tmp_path):
         realization = Realization("disc", 0, 0.5, 33.0, disc.spacing, known)
         write_surfaces([({}, 1, [(realization, disc)])], tmp_path / "surfaces.nc")
         files = tmp_path / "surfaces.nc", tmp_path / "curves.nc"
-        load_script("indent_measured").main(*files, indentation=INDENTATION)
+        load_script("indent_surfaces").main(*files, indentation=INDENTATION)
         until_force = 4 * max(known["disc"], known.get("square", 0.0)) * 33.0 * INDENTATION["until_x"]
         curve = indent(disc, tolerance=1e-3, until_fraction=1.0, until_force=until_force)
         made = netcdf.read(files[1]).variables

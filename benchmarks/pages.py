@@ -327,8 +327,8 @@ def first_minutes():
 
 
 def default_minutes():
-    """Return the time from the clone to the page, or its range over the repeats [min]."""
-    minutes = first_minutes().groupby("repeat")["wall_s"].sum().div(60).round().astype(int)
+    """Return the time from the clone to the page, or its range over the repeats, rounded up [min]."""
+    minutes = np.ceil(first_minutes().groupby("repeat")["wall_s"].sum() / 60).astype(int)
     return " to ".join(map(str, sorted({minutes.min(), minutes.max()})))
 
 

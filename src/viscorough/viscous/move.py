@@ -56,6 +56,8 @@ _AT_ONCE = 1e-11
 # branch ahead, the springs first move by the share _APPROACH of the time until the release. Then a new sum begins. This
 # time ends before the release, when the force of the spring is still at most _ROUGHLY times its force at the start.
 _FORGOTTEN, _APPROACH, _ROUGHLY = 5.0, 0.999, 1e-4
+# Events count as simultaneous if the time between them is at most this share of the time.
+_SAME_TIME = 1e-13
 # Limit for the number of events at one time, divided by the number of springs. Only rounding errors can lead to more
 # events, since at one time a spring can be released once and touch once.
 _MOST_AT_ONCE = 4
@@ -701,7 +703,7 @@ def _ramp(system, now, interval, samples):
             return now, RESTLESS
         if approaches or paused:
             continue
-        events = events + 1 if passed == at else 1
+        events = events + 1 if passed - at <= _SAME_TIME * time else 1
         at = passed
         if release < touch:
             now = _released(system, now)

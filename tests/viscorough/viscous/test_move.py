@@ -33,6 +33,25 @@ def test_touch_is_found_from_a_depth_at_rest(slope):
     assert found == pytest.approx(brentq(overlap, 0, end, xtol=1e-15), rel=1e-12)
 
 
+def test_spring_that_touches_without_force_does_not_stop_the_motion():
+    """The depth follows the relaxing surface within rounding: the spring touches and is released at almost one time."""
+    times = np.array(
+        [0.0, 2127.6320909092888, 8048.847428328587, 20694.98052786512, 25874.657528482734, 33442.07285975315]
+    )
+    depth = np.array([0.0, 0.09581596715310134, 0.07627269493200359, 0.0, 0.11227494085039552, 0.04295061188474433])
+    medium = Prony(
+        0.0,
+        [0.7299670681863927, 36.817978611235255, 0.30991467642947634],
+        [17.331212032315722, 6150.782168561446, 9.276753072214472],
+    )
+    spring = np.zeros(1), np.ones(1), medium
+    dense = np.unique(np.linspace(times[:-1], times[1:], 30))
+    force = moved(*spring, dense, np.interp(dense, times, depth), by_depth=True).force
+    at_samples = force[np.searchsorted(dense, times)]
+    np.testing.assert_allclose(moved(*spring, times, depth, by_depth=True).force, at_samples, rtol=1e-9, atol=1e-12)
+    assert force.max() < 3
+
+
 def random_case(number):
     """Return a row of springs, a medium, and a history with holds, rests, and steps if the medium allows them."""
     random = np.random.default_rng([54, number])

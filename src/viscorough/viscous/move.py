@@ -682,7 +682,7 @@ def _ramp(system, now, interval, samples):
             event = min(touch, release)
             arrives = event > left
             s = left if arrives else event
-        if not started and passed + s > at_once:
+        if not started and (arrives or passed + s > at_once):
             started = True
             _record_start(system, now, force, velocity, samples, interval.number - 1)
         passed = length if arrives else passed + s

@@ -52,6 +52,13 @@ def test_spring_that_touches_without_force_does_not_stop_the_motion():
     assert force.max() < 3
 
 
+def test_force_just_after_a_turn_does_not_depend_on_a_sample_close_to_it():
+    """The dashpot pulls as soon as the depth falls, so the spring is released at the turn."""
+    spring = np.zeros(1), np.ones(1), KelvinVoigt(1.0, 2.0)
+    times, depth = np.array([0.0, 1.0, 1.0 + 2e-12, 2.0]), np.array([0.0, 1.0, 1.0 - 2e-12, 0.0])
+    assert moved(*spring, times, depth, by_depth=True).force[1] == 0
+
+
 def random_case(number):
     """Return a row of springs, a medium, and a history with holds, rests, and steps if the medium allows them."""
     random = np.random.default_rng([54, number])

@@ -93,7 +93,7 @@ def contact_at(
 ) -> Contact | list[Contact]:
     """Solve the contact of a rigid indenter with an incompressible elastic half-space at a given depth or force.
 
-    The problem is the same as in `indent`. It is solved at the given depth only, or at the few depths that are needed
+    `indent` solves the same problem. It is solved at the given depth only, or at the few depths that are needed
     to find the given force.
 
     Parameters

@@ -229,7 +229,7 @@ class _FullMap:
             depth, force, stiffness = np.array(self._contacts).T
             difference = np.log(stiffness / curve.at_force(np.minimum(force, largest))[1])
             square = difference**2
-            # Outside the range of the contacts, the difference is the same as in the first or in the last contact.
+            # Outside the range of the contacts, the difference equals the difference in the first or the last contact.
             points = np.clip(np.log(force), first, last)
             width, ends = np.diff(points), (points[0] - first) * square[0] + (last - points[-1]) * square[-1]
             linear, upper = width * (square[1:] + square[:-1]) / 2, width * np.maximum(square[1:], square[:-1])

@@ -542,7 +542,7 @@ def _next_touch(system, now, until):
             drive[j] = spectrum.flows[j] * now.rate / stiffness
     reached = row.limit
     if count < row.gaps.size:
-        # The same sum as in `_position`, which needs the same exponential functions.
+        # `_position` has the same sum, which needs the same exponential functions.
         since, reached = now.time - springs.left[count], row.gaps[count]
         for j in range(spectrum.decays.size):
             if springs.remainder[count, j] != 0:

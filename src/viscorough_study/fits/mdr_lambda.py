@@ -59,7 +59,7 @@ class LineMatch:
         return stretch
 
     def lambda_at(self, x):
-        """Return λ = π s² at each X, with the factor s that matches lines to discs; shape as in `stretch_at`."""
+        """Return λ = π s² at each X, with the factor s that matches lines to discs, in the shape of `stretch_at`."""
         return np.pi * np.exp(2 * self.stretch_at(x))
 
     def lambda_in(self, window):

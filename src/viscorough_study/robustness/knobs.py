@@ -25,7 +25,7 @@ from viscorough_study.fits.conventions import fits
 from viscorough_study.run.names import BOX, RANGE, STEPS
 from viscorough_study.run.seeds import failure_map_key, realization_seed
 
-HURST = 0.7  # Hurst exponent of the disc for the explicit steps, as in most stress-test cases
+HURST = 0.7  # Hurst exponent of the disc for the explicit steps, which most stress-test cases have, too
 NUMBERS = (8, 32, 128, 512, 2048)  # numbers of explicit time steps that are compared
 FRACTIONS = (0.02, 0.5)  # smallest and largest contact fraction at which depths are compared
 COMPARED = 6  # number of impulses ∫F dt/η at which depths are compared
@@ -75,7 +75,7 @@ def periodic_stiffness(across, width):
     """Compute the stiffness of a flat disc in a periodic box: the sum of its pressures at a depth of 1.
 
     The result is in reduced units. Any two elements act on each other over the shorter distance, directly or across the
-    edge of the box, as in a convolution by Fourier transforms.
+    edge of the box: a convolution by Fourier transforms.
     across, width : number of elements across the disc and across the box
     """
     place = np.argwhere(np.isfinite(cut_disc(np.zeros((across, across)), across)))

@@ -376,7 +376,7 @@ class ForceRecord(Record):
         return np.append(self.first * np.array(_DASHPOTS), super().grid())
 
     def start(self, times: Array) -> tuple[Array, Array]:
-        # As in an elastic body, the springs with gaps below the depth are in contact.
+        # The springs with gaps below the depth are in contact, like the elements of an elastic contact.
         shift = np.zeros(self.shift_scales.size)
         path = self._path(shift)
         columns = self._columns(path, times, np.searchsorted(self.gap, path.depth[path.place]))

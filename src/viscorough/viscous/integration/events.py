@@ -121,7 +121,7 @@ def newtonian_events(indenter: Indenter, *, until_fraction: float = 1.0) -> Even
     row, column, gap = (values[order] for values in (elements.row, elements.column, elements.initial_gap))
     most = max(1, int(np.ceil(until_fraction * gap.size)))
     memory.require(8 * most**2, f"march: the factor for {most} elements in contact")
-    # Whole numbers of 32 bits, as in the dense solution of a contact, so that numba compiles shared functions once.
+    # The dense solution of a contact has whole numbers of 32 bits, too, so that numba compiles shared functions once.
     row, column = row.astype(np.int32), column.astype(np.int32)
     factor, members, inside = np.empty((most, most)), np.empty(most, int), np.zeros(gap.size, bool)
     impulse, depth, resistance = events = np.zeros((3, most))

@@ -1,7 +1,7 @@
-"""Time stepping of the viscous problem, as in a simulation that solves one contact problem per time step.
+"""Time stepping of the viscous problem, like a simulation that solves one contact problem per time step.
 
-This module does not use the correspondence with the elastic problem. As in the module `events`, the impulse ∫F dt/η
-replaces the time. For a given contact set, the ratio of velocity and force does not depend on the force. Therefore
+This module does not use the correspondence with the elastic problem. Here and in the module `events`, the impulse ∫F
+dt/η replaces the time. For a given contact set, the ratio of velocity and force does not depend on the force. Therefore
 steps of the impulse are valid for every force F(t) ≥ 0.
 
 The explicit scheme keeps the contact set during a step. So elements that should come into contact in this step overlap
@@ -147,8 +147,8 @@ def newtonian_steps(
 class _Explicit:
     """State of surface and indenter in the explicit scheme.
 
-    Impulses are divided by 4π d, with elements of side d. Fields such as the gap are flat arrays on the grid, as in
-    GridSolver.
+    Impulses are divided by 4π d, with elements of side d. Fields such as the gap are flat arrays on the grid, like
+    the fields of GridSolver.
     """
 
     def __init__(self, indenter: Indenter, tolerance: float) -> None:

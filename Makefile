@@ -178,7 +178,6 @@ outside: environment
 
 fuzz: environment-dev
 	$(BIN)/python benchmarks/fuzz.py --runs 10000 --output results/fuzz.json
-	$(BIN)/python benchmarks/file_campaign.py --files 10000 --output results/file_campaign.json
 
 faults: environment-dev
 	$(BIN)/python benchmarks/mutants.py --cores $(CORES) --output results/mutants.json

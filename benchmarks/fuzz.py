@@ -22,9 +22,8 @@ from pathlib import Path
 import click
 import numpy as np
 import pandas as pd
-from file_cases import generators
 from fuzz_cases import COMMAND_LINES, STARTED, case, files_of, valid_arguments
-from measuring import save
+from measuring import generators, save
 from tqdm import tqdm
 
 from viscorough import cli

@@ -1,7 +1,7 @@
 """Random command lines and their files, many of them invalid; for fuzz.py.
 
 A command line is one of a list of valid lines with random numbers; words of it are replaced, inserted or left out. Its
-files are valid, and some of them are then damaged. Maps of heights in text come from file_campaign.py.
+files are valid, and some of them are then damaged.
 """
 
 import io
@@ -10,8 +10,6 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-import text_files
-import tifffile
 
 import viscorough
 from viscorough.cli import cli
@@ -98,13 +96,11 @@ def netcdf_file(random):
     return saved(viscorough.Indenter(random.random(random.integers(1, 7, 2)), 0.5, length_unit="um"))
 
 
-def tiff_file(random):
-    """Return a TIFF file of a map, of pages or of colours, with a unit as from ImageJ, or of any program."""
-    file, kind = io.BytesIO(), one_of(random, ["f4", "u2", "u1"])
-    options = one_of(random, [{}, {}, {"imagej": True, "resolution": (2, 4), "metadata": {"unit": "um"}}])
-    values = (99 * random.random(random.integers(1, 7, one_of(random, [2, 2, 2, 3])))).astype(kind)
-    tifffile.imwrite(file, values, photometric="minisblack", **options)
-    return file.getvalue()
+def matrix(random):
+    """Return a text with a matrix of heights, in columns that a random delimiter separates."""
+    file, delimiter = io.StringIO(), one_of(random, [" ", ",", ";", "\t"])
+    np.savetxt(file, random.standard_normal(random.integers(4, 9, 2)), delimiter=delimiter, header="a map")
+    return file.getvalue().encode()
 
 
 def curve_file(random):
@@ -134,10 +130,7 @@ MEDIA = [
 FILES = {
     "heights.npy": npy((5, 6)),
     "heights.nc": netcdf_file,
-    "heights.txt": lambda random: text_files.matrix(random).content,
-    "heights.asc": lambda random: text_files.esri(random).content,
-    "heights.xyz": lambda random: text_files.points(random).content,
-    "heights.tif": tiff_file,
+    "heights.txt": matrix,
     "curve.nc": curve_file,
     "line.npy": npy(9),
     "force.csv": columns("0,0\n", "t,F\n", "t [ms],F [mN]\n", "t [kg],F\n"),
@@ -155,8 +148,7 @@ COMMAND_LINES = (
     *("indent heights.npy --spacing 1 --until-fraction F -o out.nc", "indent heights.nc --forces S -o out.nc"),
     "indent heights.npy --spacing 1 --audit -o out.nc",
     "indent heights.npy --spacing 1 --unit inch --crop 0:5,0:4 --detrend plane --fill harmonic -o out.nc",
-    *("indent heights.txt --spacing 1 -o out.nc", "indent heights.asc -o out.nc", "indent heights.xyz -o out.nc"),
-    *("indent heights.tif --spacing 1 -o out.nc", "contact heights.npy --spacing 1 --force S -o out.nc"),
+    *("indent heights.txt --spacing 1 -o out.nc", "contact heights.npy --spacing 1 --force S -o out.nc"),
     "contact heights.npy --spacing 1 --force N --young 3 --poisson 0.3 -o out.nc",
     *("contact heights.nc --depth S -o out.nc", "march heights.npy --spacing 1 --method events --times S -o out.nc"),
     *(f"march heights.nc --method {method} --times S -o out.nc" for method in ("events", "implicit")),

@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import click
+import numpy as np
 
 import viscorough
 from viscorough.io.atomic import atomic_write
@@ -21,6 +22,12 @@ ENVIRONMENT = {
 LARGE_PAGES = {"GLIBC_TUNABLES": "glibc.malloc.hugetlb=1"}  # large pages, if the system has them; as in the workflow
 
 output_option = click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write.")
+
+
+def generators(seed, numbers):
+    """Yield (number, random generator) of numbered cases; each depends on the seed and its number only."""
+    for number in numbers:
+        yield number, np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(number,)))
 
 
 def run_timed(main, **variables):

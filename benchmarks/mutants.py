@@ -31,8 +31,7 @@ import cosmic_ray.plugins
 import numpy as np
 from cosmic_ray.ast import ast_nodes, get_ast
 from cosmic_ray.mutating import mutate_code
-from file_cases import generators
-from measuring import output_option, save
+from measuring import generators, output_option, save
 from project_copy import ROOT, copy_project, environment
 
 sys.path.insert(0, str(ROOT / "tests"))

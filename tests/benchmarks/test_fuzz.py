@@ -3,7 +3,7 @@
 import fuzz
 import fuzz_cases
 import pytest
-from file_cases import generators
+from measuring import generators
 
 pytestmark = [pytest.mark.long, pytest.mark.filterwarnings("default")]
 

@@ -90,9 +90,11 @@ def date_of(file):
 
 
 def copy_picture(file, target):
-    """Copy a PNG file with at most 128 colours, which needs a third of the bytes: git keeps every version."""
+    """Copy a PNG file: git keeps every version, so figures without a colour map get at most 128 colours."""
     with Image.open(file) as picture:
-        picture.convert("RGB").quantize(128, dither=Image.Dither.NONE).save(target, optimize=True)
+        if picture.mode == "P":  # save_figure keeps all colours of a figure with a colour map
+            picture = picture.convert("RGB").quantize(128, dither=Image.Dither.NONE)
+        picture.save(target, optimize=True)
 
 
 def copy_table(file, target):

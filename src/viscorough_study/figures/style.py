@@ -160,14 +160,17 @@ def _write_pdf(figure, path):
 
 
 def _write_png(figure, path):
-    """Write a PNG file of at most 256 colours, which is a third as large as a file of all colours.
+    """Write a PNG file, with at most 256 colours if the figure has no colour map.
 
-    Small files matter, because the page of results embeds all figures.
+    Fewer colours make a file a third as large, and the page of results embeds all figures. With fewer colours than the
+    colour map has, however, readers would read wrong values off its bar.
     """
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
-    colours = Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3]).quantize(256, dither=Image.Dither.NONE)
-    colours.save(path, format="png", dpi=(DPI, DPI), optimize=True)
+    picture = Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3])
+    if not any(axes.images for axes in figure.axes):
+        picture = picture.quantize(256, dither=Image.Dither.NONE)
+    picture.save(path, format="png", dpi=(DPI, DPI), optimize=True)
 
 
 _WRITERS = {".png": _write_png, ".pdf": _write_pdf}

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from matplotlib import colormaps
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from PIL import Image
@@ -59,3 +60,14 @@ def test_saved_files_are_reproducible(scaling, tmp_path):
     assert b"CreationDate" not in first["a.pdf"]
     assert b"/FontFile2" in first["a.pdf"]  # the file embeds TrueType fonts
     assert int.from_bytes(first["a.png"][16:20], "big") == pytest.approx(85 / 25.4 * 200, abs=1)
+
+
+def test_colour_maps_keep_their_colours(tmp_path):
+    """Values read off a colour bar are wrong if the file has fewer colours than the colour map."""
+    drawn = Figure()
+    drawn.subplots().imshow(np.arange(4096.0).reshape(64, 64), cmap="viridis", interpolation="nearest")
+    save_figure(drawn, tmp_path / "map.png")
+    with Image.open(tmp_path / "map.png") as picture:
+        colours = {color for _, color in picture.convert("RGB").getcolors(2**24)}
+    expected = {tuple(color) for color in colormaps["viridis"](np.arange(256), bytes=True)[:, :3].tolist()}
+    assert expected <= colours

@@ -48,6 +48,9 @@ _LARGEST_DECAY = 8.0
 _MOST_TURNS = 200
 # A load may exceed the end of the loading curve by this share, because of rounding.
 ROUNDING = 1e-10
+# The tangents of two levels meet between the levels only if each tangent differs from the curve at the other level by
+# more than this share of the force. Rounding alone makes a difference of about 1e-15.
+_FORCE_ROUNDING = 1e-12
 
 
 class RowOfSprings(NamedTuple):
@@ -90,8 +93,9 @@ def row_of_springs(curve: LoadingCurve, load: Load | None = None) -> RowOfSpring
     chords = np.diff(force) / np.diff(depth)
     gap, limit = depth[:-1], curve.depth[-1] * (1 + ROUNDING)
     if curve.contact_count[-1] == curve.elements:
-        # After complete contact the curve is a straight line.
-        chords, gap, limit = np.append(chords, max(chords[-1], curve.stiffness[-1])), depth, np.inf
+        # After complete contact the curve is a straight line. No chord before it is steeper, except by rounding.
+        last = curve.stiffness[-1]
+        chords, gap, limit = np.append(np.minimum(chords, last), last), depth, np.inf
     jumps = np.diff(chords, prepend=0.0)
     first_depth = 0.0 if curve.starts_straight else float(curve.depth[0])
     used = jumps > 0
@@ -172,16 +176,18 @@ def elements_in_contact(curve: LoadingCurve, depth: Array) -> Array:
 def _meeting_of_tangents(curve: LoadingCurve, tangents: Mask) -> Array:
     """Return the depth at which the tangents of two neighbouring levels meet.
 
-    There is one depth for each interval between levels; it is nan if the tangents do not meet within the interval.
+    There is one depth for each interval between levels. It is nan if the tangents do not meet within the interval, or
+    if they meet at one of the levels within rounding: the slope from this level to the meeting would be rounding error.
 
     tangents : True for the intervals to compute; the depth is nan for other intervals
     """
-    depth, force, stiffness = curve.depth, curve.force, curve.stiffness
-    jump, rise = np.diff(stiffness), np.diff(depth)
+    force, stiffness = curve.force, curve.stiffness
+    rise, rounding = np.diff(curve.depth), _FORCE_ROUNDING * force[1:]
+    below_first = stiffness[1:] * rise - np.diff(force)  # how far the second tangent is below the first level
+    below_second = np.diff(force) - stiffness[:-1] * rise  # how far the first tangent is below the second level
+    inside = tangents & (below_first > rounding) & (below_second > rounding)
     with np.errstate(divide="ignore", invalid="ignore"):
-        step = (stiffness[1:] * rise - np.diff(force)) / jump
-    inside = tangents & (jump > 0) & (step > 0) & (step < rise)
-    return np.where(inside, depth[:-1] + step, np.nan)
+        return np.where(inside, curve.depth[:-1] + below_first / np.diff(stiffness), np.nan)
 
 
 def merged(gap: Array, stiffness: Array, depth: float, most: int) -> tuple[Array, Array]:

@@ -46,6 +46,19 @@ def test_row_of_a_curve_of_all_contact_events_is_exact():
     assert row.limit == np.inf, "complete contact goes on as a flat punch"
 
 
+@pytest.mark.parametrize("size", [5, 7, 9, 11, 17])
+def test_row_and_motion_go_on_with_the_last_stiffness_after_complete_contact(size):
+    """The tangents of the last two levels may meet at the last level within rounding. In a viscous medium Φ = F t/η."""
+    for seed in range(15):
+        curve = indent(self_affine_disc(0.25 * (seed % 5), size, seed=seed), tolerance=1e-6, until_fraction=1.0)
+        last_depth, last_force, last_stiffness = curve.depth[-1], curve.force[-1], curve.stiffness[-1]
+        assert row_of_springs(curve).stiffness.sum() == pytest.approx(last_stiffness, rel=1e-12), seed
+        creep = last_force * np.array([1.5, 10.0])
+        motion = kinetics(curve, 3.0, 2.0, 2.0 / 3.0 * creep)
+        np.testing.assert_allclose(motion.depth, last_depth + (creep - last_force) / last_stiffness, rtol=1e-12)
+        np.testing.assert_allclose(motion.velocity, 1.5 / last_stiffness, rtol=1e-12)
+
+
 def test_contact_fraction_is_linear_in_the_depth_between_levels():
     """A spring of a chord touches at the depth where the chord begins."""
     curve = indent(DISC, tolerance=1e-2)

@@ -16,14 +16,14 @@ import pandas as pd
 import xarray as xr
 from measured_times import holds_times
 
-COMPARED = "tables/*.csv", "ensembles/**/*.nc", "curves/**/*.nc", "surfaces/**/*.nc"  # tables are NetCDF files, too
+COMPARED = "tables/*.csv", "ensembles/**/*.nc", "curves/**/*.nc", "surfaces/**/*.nc"
 TOLERANCE = 1e-12  # relative: allows a different order of operations, and is far below any tolerance of a computation
 
 
 def content(path):
     """Return {column or variable: values} of a table or a NetCDF file, with the groups of the variables."""
     if path.suffix == ".csv":
-        return dict(pd.read_csv(path))
+        return dict(pd.read_csv(path, comment="#"))  # without the first line, which states how the table was made
     with xr.open_datatree(path, decode_times=False) as tree:
         return {
             f"{group.path}/{name}".lstrip("/"): pd.Series(variable.values.ravel())

@@ -11,7 +11,7 @@ import numpy as np
 import viscorough
 from viscorough.io.atomic import atomic_write
 from viscorough_study.performance import timing
-from viscorough_study.run.tables import recorded, write_table
+from viscorough_study.run.tables import write_table
 
 # One thread, and the allocator settings of the workflow; a process reads both when it starts.
 ENVIRONMENT = {
@@ -60,12 +60,7 @@ def save_table(table, output):
 
 
 def save_times(table, output, columns, title, settings):
-    """Write a table of times as CSV, and next to it as NetCDF with settings and machine, each atomically.
-
-    columns : columns for write_table
-    """
+    """Write a table of times with its settings and the machine; columns, title : arguments of write_table"""
     output.parent.mkdir(parents=True, exist_ok=True)
-    attributes = recorded(settings=settings, machine=timing.machine())
-    described = {"columns": columns, "dimension": "measurement", "title": title, "attributes": attributes}
-    write_table(table, output, output.with_suffix(".nc"), **described)
+    write_table(table, output, columns=columns, title=title, settings=settings, machine=timing.machine())
     click.echo(f"written to {output}")

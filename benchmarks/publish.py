@@ -11,6 +11,7 @@ draws the surfaces. Then the numbers and tables in README.md and docs/ are writt
 `--pages-only` nothing else is done. The workflow writes only into results/.
 """
 
+import io
 import json
 import shutil
 import subprocess
@@ -25,6 +26,7 @@ from pages import DEFAULT_CLAIMS, DEFAULT_COSTS, FIRST_MINUTES, OTHER_SOLVERS, R
 from PIL import Image  # matplotlib depends on it
 
 from viscorough_study.performance import timing
+from viscorough_study.run.tables import read_table, split_table
 
 
 def _made(figures="", tables="", others=""):
@@ -78,7 +80,7 @@ def copy_other_solvers(table, target, machine, date):
 
     Solutions that do not meet the residual have no time.
     """
-    times = pd.read_csv(table).query("solver != 'viscorough' and threads == 1").dropna(subset="ratio")
+    times = read_table(table).query("solver != 'viscorough' and threads == 1").dropna(subset="ratio")
     times = times[["task", "hurst", "elements", "levels", "solver", "version", "threads", "ratio"]]
     times = times.assign(ratio=times["ratio"].map("{:.3g}".format), measured=date, machine=machine)
     times.to_csv(target, index=False, lineterminator="\n")
@@ -97,9 +99,15 @@ def copy_picture(file, target):
         picture.save(target, optimize=True)
 
 
+def plain_table(file):
+    """Return the CSV text of a table without its first line, which tables of some benchmarks do not have."""
+    text = file.read_text(encoding="utf-8")
+    return split_table(file)[1] if text.startswith("#") else text
+
+
 def copy_table(file, target):
-    """Copy a CSV file with eight significant digits, which needs half of the bytes: git keeps every version."""
-    text = pd.read_csv(file, keep_default_na=False, na_values=[""])
+    """Copy a table with eight significant digits, which needs half of the bytes: git keeps every version."""
+    text = pd.read_csv(io.StringIO(plain_table(file)), keep_default_na=False, na_values=[""])
     text.to_csv(target, index=False, float_format="%.8g", lineterminator="\n")
 
 
@@ -120,9 +128,9 @@ def copy_results(results, project, commands, commit):
     where = f"{machine['processor']}, {machine['cores']} cores"
     for command in commands:
         for name, target in KEPT.get(command, {}).items():
-            shutil.copyfile(results / name, project / target)
+            (project / target).write_text(plain_table(results / name), encoding="utf-8")
             if target == DEFAULT_COSTS:
-                costs = pd.read_csv(results / name).assign(measured=date_of(results / name), machine=where)
+                costs = read_table(results / name).assign(measured=date_of(results / name), machine=where)
                 costs.to_csv(project / target, index=False, lineterminator="\n")
         for file in (results / name for name in PUBLISHED[command]):
             copy = {".png": copy_picture, ".csv": copy_table}.get(file.suffix, shutil.copyfile)

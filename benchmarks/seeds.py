@@ -15,6 +15,7 @@ import click
 import pandas as pd
 from measuring import output_option, save_table
 
+from viscorough_study.run.tables import read_table
 from viscorough_study.verdicts.claims import overall
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -26,7 +27,7 @@ def claims(folder, seed, cores):
     command = [sys.executable, "-m", "snakemake", "--snakefile", snakefile, "--directory", folder]
     command += ["--cores", str(cores), "--quiet", "all", "--config", f"seed={seed}"]
     subprocess.run([*command, "--", "results/tables/claims.csv"], check=True)
-    return pd.read_csv(Path(folder) / "results/tables/claims.csv", keep_default_na=False, na_values=[""])
+    return read_table(Path(folder) / "results/tables/claims.csv", keep_default_na=False, na_values=[""])
 
 
 @click.command(help=__doc__.splitlines()[0])

@@ -4,8 +4,8 @@
 
 The time of the path includes its set-up and the exact stiffness at every level; the time of another solver includes
 neither. Other solvers start every level from the previous level, if they can. Solvers that `make peers` has not
-installed are left out. The table has the columns of COLUMNS; a NetCDF file next to it also records settings and
-machine. `make speed` runs it.
+installed are left out. The table has the columns of COLUMNS; its first line also records settings and machine. `make
+speed` runs it.
 """
 
 import gc

@@ -16,10 +16,10 @@ import pandas as pd
 from tqdm import tqdm
 
 from viscorough.io.atomic import check_output, reason
-from viscorough.io.netcdf import opened
 from viscorough_study.run.paper_data import read_paper
 from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.run.stale_locks import REMOVED
+from viscorough_study.run.tables import read_table, split_table
 from viscorough_study.verdicts.claims import counted_verdicts
 
 OUTPUT = Path("results/run.log")
@@ -163,10 +163,10 @@ def _error_in(log):
 
 def summary(results=Path("results"), paper=Path("resources/paper")):
     """Return the last lines of a run: verdicts on the paper's own claims, times of run and paper, and the page."""
-    claims = counted_verdicts(pd.read_csv(results / "tables/claims.csv"), "own")
-    with opened(results / "tables/claims.nc") as file:
-        trial = "; trial scale, on which verdicts mean nothing" * int(file.getncattr("trial"))
-    seconds = pd.read_csv(results / "tables/rule_costs.csv")["share_s"].sum()
+    table = results / "tables/claims.csv"
+    claims = counted_verdicts(read_table(table), "own")
+    trial = "; trial scale, on which verdicts mean nothing" * split_table(table)[0]["trial"]
+    seconds = read_table(results / "tables/rule_costs.csv")["share_s"].sum()
     theirs = read_paper(paper, "numbers")["boundary_elements"]["computing_time"]["value"]
     verdicts = ", ".join(f"{number} {verdict}" for verdict, number in claims)
     return [

@@ -7,6 +7,8 @@ import pytest
 import xarray as xr
 from click.testing import CliRunner
 
+from viscorough_study.run.tables import read_table, write_table
+
 
 @pytest.fixture
 def runs(tmp_path):
@@ -15,7 +17,8 @@ def runs(tmp_path):
         (tmp_path / name / "tables").mkdir(parents=True)
         (tmp_path / name / "surfaces").mkdir()
         claims = pd.DataFrame({"claim": ["beta"], "value": [0.3], "note": [np.nan]})
-        claims.to_csv(tmp_path / name / "tables/claims.csv", index=False)
+        columns = {column: (column, None) for column in claims}
+        write_table(claims, tmp_path / name / "tables/claims.csv", columns=columns, title=f"Claims, {name}")
         pd.DataFrame({"wall_s": [seconds]}).to_csv(tmp_path / name / "tables/methods.csv", index=False)
         heights = xr.Dataset({"heights": (("y", "x"), [[1.0, 2.0]])})
         heights.to_netcdf(tmp_path / name / "surfaces/examples.nc", group="ensemble_1")
@@ -40,7 +43,7 @@ def compared(runs, *options):
 )
 def test_difference_in_a_table_is_found(runs, column, change, differs):
     path = runs[1] / "tables/claims.csv"
-    content = pd.read_csv(path)
+    content = read_table(path)
     content.assign(**{column: change(content.get(column))}).to_csv(path, index=False)
     code, output = compared(runs)
     assert code == differs

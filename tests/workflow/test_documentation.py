@@ -4,11 +4,11 @@ import fnmatch
 import re
 
 import netCDF4
-import pandas as pd
 
 from support.documentation import ROOT, named_files, read
 from support.output_files import documented
 from support.workflow import TEST, copy_sources, snakemake
+from viscorough_study.run.tables import read_table
 
 
 def test_every_netcdf_file_is_described(finished):
@@ -49,7 +49,7 @@ def test_extension_works_as_described(finished):
     for path, text in files.items():
         (finished / path).write_text(text, encoding="utf-8")
     snakemake(finished, *TEST, "--", "results/figures/departures.png")
-    table = pd.read_csv(finished / "results/tables/departures.csv")
+    table = read_table(finished / "results/tables/departures.csv")
     assert set(table["hurst"]) <= {0.4, 0.9}
     assert len(table) > 0
     assert (finished / "results/figures/departures.png").stat().st_size > 1e4

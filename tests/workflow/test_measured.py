@@ -3,15 +3,15 @@
 import shutil
 
 import numpy as np
-import pandas as pd
 import pytest
 
+import support.tables
 from support.cf import violations
 from support.command_line import run
 from support.page import Page
-from support.tables import read_table
 from support.workflow import TEST, jobs, plan, settings_file, snakemake
 from viscorough.surfaces.self_affine import self_affine_disc
+from viscorough_study.run.tables import read_table
 
 pytestmark = pytest.mark.long
 
@@ -45,7 +45,7 @@ def folder(finished_once, tmp_path_factory):
 
 
 def test_scans_are_evaluated_in_metres(folder):
-    scans = pd.read_csv(folder / "results/tables/measured_scans.csv").set_index("scan")
+    scans = read_table(folder / "results/tables/measured_scans.csv").set_index("scan")
     assert set(scans.index) == SCANS
     np.testing.assert_allclose(scans["spacing"], 1e-5)
     np.testing.assert_allclose(scans["rms"], 0.5e-6, rtol=0.2)
@@ -55,13 +55,13 @@ def test_scans_are_evaluated_in_metres(folder):
 
 
 def test_power_laws_have_the_numbers_of_scans(folder):
-    fits = pd.read_csv(folder / "results/tables/measured_fits.csv")
+    fits = read_table(folder / "results/tables/measured_fits.csv")
     assert fits.groupby("case_group")["realizations"].first().to_dict() == {"ground": 2, "polished": 1}
     assert fits[fits["case_group"] == "polished"]["beta_low"].isna().all()  # the interval needs more than one scan
 
 
 def test_kinetics_have_all_forces_in_every_medium(folder):
-    kinetics = pd.read_csv(folder / "results/tables/measured_kinetics.csv")
+    kinetics = read_table(folder / "results/tables/measured_kinetics.csv")
     assert set(kinetics["scan"]) == {"ground_a", "ground_b"}
     assert set(kinetics["force"]) == {1e-4, 1e-3}
     assert set(kinetics["medium"]) == {"newtonian", "springpot"}
@@ -73,11 +73,11 @@ def test_kinetics_have_all_forces_in_every_medium(folder):
 
 def test_contacts_have_the_numbers_of_the_command_line(folder, monkeypatch):
     monkeypatch.chdir(folder)
-    contacts = pd.read_csv("results/tables/measured_contacts.csv")
+    contacts = read_table("results/tables/measured_contacts.csv")
     assert contacts["scan"].tolist() == ["ground_a", "ground_a", "ground_b", "ground_b"]
     how = "--spacing 10 --unit um --force 1e-4,1e-3 --young 2e6"
     assert run(f"contact scans/a.npy {how} -o {folder / 'contacts.csv'}") == 0
-    table, units = read_table("contacts.csv")
+    table, units = support.tables.read_table("contacts.csv")
     for name in set(units) - {"file", "error", "warnings", "digest"}:
         np.testing.assert_allclose(contacts[:2][name], table[name], rtol=1e-12, err_msg=name)
 

@@ -6,7 +6,6 @@ import site
 import subprocess
 import sys
 
-import pandas as pd
 import pytest
 
 from support.command_line import python
@@ -23,6 +22,7 @@ from support.workflow import (
     read_settings,
     snakemake,
 )
+from viscorough_study.run.tables import read_table
 
 pytestmark = pytest.mark.long
 
@@ -69,7 +69,7 @@ def test_module_leaves_the_default_target_to_rules_before_it(tmp_path):
 
 def test_costs_count_only_the_run_under_any_prefix(finished, tmp_path):
     """Benchmark files left behind by other settings or targets do not count."""
-    expected = pd.read_csv(finished / "results/tables/rule_costs.csv").set_index("rule")["jobs"]
+    expected = read_table(finished / "results/tables/rule_costs.csv").set_index("rule")["jobs"]
     benchmarks = finished / "results/benchmarks"
     others = ("plot_sizes.tsv", "evaluate_measured.tsv", "earlier.tsv", "indent_surfaces/discs/h07000/0000-0001.tsv")
     for name in others:
@@ -84,7 +84,7 @@ def test_costs_count_only_the_run_under_any_prefix(finished, tmp_path):
     options = ("--rerun-triggers", "mtime", "--forcerun", "tabulate_rule_costs", "--", "tabulate_rule_costs")
     assert plan(tmp_path, *options) == {"tabulate_rule_costs": 1}
     snakemake(tmp_path, *options)
-    costs = pd.read_csv(tmp_path / "rough/results/tables/rule_costs.csv").set_index("rule")["jobs"]
+    costs = read_table(tmp_path / "rough/results/tables/rule_costs.csv").set_index("rule")["jobs"]
     assert costs.to_dict() == expected.drop("compile_kernels").to_dict()
 
 

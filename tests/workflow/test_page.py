@@ -17,6 +17,7 @@ from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.page.content import as_yaml
 from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.run.settings import changed_settings
+from viscorough_study.run.tables import read_table
 from viscorough_study.verdicts.claims import overall, physics
 
 LARGEST = 3e6  # bytes
@@ -35,7 +36,7 @@ def page(html):
 @pytest.fixture(scope="module")
 def tables(finished_once):
     texts = {"keep_default_na": False, "na_values": [""]}
-    return {path.stem: pd.read_csv(path, **texts) for path in (finished_once / "results/tables").glob("*.csv")}
+    return {path.stem: read_table(path, **texts) for path in (finished_once / "results/tables").glob("*.csv")}
 
 
 def test_every_image_is_embedded_and_described(finished_once, page):
@@ -142,7 +143,7 @@ def test_page_marks_a_trial_run_and_shows_no_raw_values(page):
 
 
 def test_page_compares_the_time_of_the_jobs_with_the_papers(finished_once, page):
-    costs = pd.read_csv(finished_once / "results/tables/rule_costs.csv")
+    costs = read_table(finished_once / "results/tables/rule_costs.csv")
     assert costs["longest_s"].max() < costs["share_s"].sum() < costs["seconds"].sum()
     assert (
         f"Boundary elements: several weeks in the paper, {duration_text(costs['share_s'].sum())} here on this machine"

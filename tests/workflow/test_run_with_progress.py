@@ -8,11 +8,11 @@ import sys
 import pandas as pd
 import pytest
 import run_with_progress
-import xarray as xr
 from run_with_progress import Progress, summary
 
 from support.study import ROOT
 from viscorough_study.run.stale_locks import REMOVED
+from viscorough_study.run.tables import write_table
 
 STARTED = """Building DAG of jobs...
 Provided cores: 2
@@ -122,10 +122,11 @@ def test_summary_is_three_lines(tmp_path):
     ]
     rows += [("d", "not reproduced", "quoted")]
     claims = pd.DataFrame(rows, columns=["claim", "verdict", "origin"]).assign(kind="physics")
-    claims.to_csv(tmp_path / "tables/claims.csv")
-    pd.DataFrame({"share_s": [200.0, 40.0]}).to_csv(tmp_path / "tables/rule_costs.csv", index=False)
+    columns = {name: (name, None) for name in claims}
+    costs = pd.DataFrame({"share_s": [200.0, 40.0]})
+    write_table(costs, tmp_path / "tables/rule_costs.csv", columns={"share_s": ("time", "s")}, title="Costs")
     for trial, added in ((0, ""), (1, "; trial scale, on which verdicts mean nothing")):
-        xr.Dataset(attrs={"trial": trial}).to_netcdf(tmp_path / "tables/claims.nc")
+        write_table(claims, tmp_path / "tables/claims.csv", columns=columns, title="Claims", trial=trial)
         assert summary(tmp_path, ROOT / "resources/paper") == [
             "3 claims of the paper: 2 reproduced, 1 undecided" + added,
             "It took 4.0 minutes; the paper: several weeks",

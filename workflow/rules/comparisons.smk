@@ -5,7 +5,6 @@
 rule compare_exact:
     output:
         csv="results/tables/validation.csv",
-        nc="results/tables/validation.nc",
     log:
         "results/logs/compare_exact.log",
     benchmark:
@@ -50,7 +49,6 @@ rule require_accuracy:
 rule compare_periodic:
     output:
         csv="results/tables/periodic.csv",
-        nc="results/tables/periodic.nc",
     log:
         "results/logs/compare_periodic.log",
     benchmark:
@@ -73,7 +71,6 @@ rule compare_periodic:
 rule compare_reduction:
     output:
         csv="results/tables/reduction.csv",
-        nc="results/tables/reduction.nc",
     log:
         "results/logs/compare_reduction.log",
     benchmark:
@@ -97,7 +94,6 @@ rule compare_reduction:
 rule compare_direct:
     output:
         csv="results/tables/direct.csv",
-        nc="results/tables/direct.nc",
     log:
         "results/logs/compare_direct.log",
     benchmark:
@@ -121,7 +117,6 @@ rule compare_direct:
 rule compare_histories:
     output:
         csv="results/tables/histories.csv",
-        nc="results/tables/histories.nc",
     log:
         "results/logs/compare_histories.log",
     benchmark:
@@ -149,7 +144,6 @@ rule tabulate_literature:
         reduction="results/tables/reduction.csv",
     output:
         csv="results/tables/literature.csv",
-        nc="results/tables/literature.nc",
     log:
         "results/logs/tabulate_literature.log",
     benchmark:
@@ -174,7 +168,6 @@ rule compute_media:
         curves=cases.combination_curves(DISCS),
     output:
         csv="results/tables/media.csv",
-        nc="results/tables/media.nc",
     log:
         "results/logs/compute_media.log",
     benchmark:
@@ -198,7 +191,6 @@ rule compute_media:
 rule map_failures:
     output:
         csv="results/tables/failure_map.csv",
-        nc="results/tables/failure_map.nc",
     log:
         "results/logs/map_failures.log",
     benchmark:
@@ -224,7 +216,6 @@ rule vary_settings:
         scaling="results/tables/scaling.csv",
     output:
         csv="results/tables/failure_knobs.csv",
-        nc="results/tables/failure_knobs.nc",
     log:
         "results/logs/vary_settings.log",
     benchmark:
@@ -252,7 +243,6 @@ PRESSED = ("group", "file", "digest", "spacing", "unit", "preparation", "forces"
 rule press_measured:
     output:
         csv="results/tables/measured_contacts.csv",
-        nc="results/tables/measured_contacts.nc",
     log:
         "results/logs/press_measured.log",
     benchmark:
@@ -280,11 +270,6 @@ rule evaluate_measured:
             "results/tables/measured_scans.csv",
             "results/tables/measured_fits.csv",
             "results/tables/measured_kinetics.csv",
-        ],
-        nc=[
-            "results/tables/measured_scans.nc",
-            "results/tables/measured_fits.nc",
-            "results/tables/measured_kinetics.nc",
         ],
     log:
         "results/logs/evaluate_measured.log",

@@ -8,7 +8,6 @@ rule fit_power_laws:
         lines="results/ensembles/lines.nc",
     output:
         csv="results/tables/scaling.csv",
-        nc="results/tables/scaling.nc",
     log:
         "results/logs/fit_power_laws.log",
     benchmark:
@@ -34,7 +33,6 @@ rule match_lambda:
         lines="results/ensembles/lines.nc",
     output:
         csv=["results/tables/mdr_lambda.csv", "results/tables/mdr_summary.csv", "results/tables/mdr_exponents.csv"],
-        nc=["results/tables/mdr_lambda.nc", "results/tables/mdr_summary.nc", "results/tables/mdr_exponents.nc"],
     log:
         "results/logs/match_lambda.log",
     benchmark:
@@ -63,7 +61,6 @@ rule fit_interface:
         size_lines="results/ensembles/size_lines.nc",
     output:
         csv=["results/tables/interface.csv", "results/tables/interface_curves.csv"],
-        nc=["results/tables/interface.nc", "results/tables/interface_curves.nc"],
     log:
         "results/logs/fit_interface.log",
     benchmark:
@@ -92,7 +89,6 @@ rule measure_plateaus:
         discs="results/ensembles/discs.nc",
     output:
         csv="results/tables/plateaus.csv",
-        nc="results/tables/plateaus.nc",
     log:
         "results/logs/measure_plateaus.log",
     benchmark:
@@ -124,7 +120,6 @@ rule compare_zeta_laws:
         discs="results/ensembles/discs.nc",
     output:
         csv="results/tables/zeta_laws.csv",
-        nc="results/tables/zeta_laws.nc",
     log:
         "results/logs/compare_zeta_laws.log",
     benchmark:
@@ -153,7 +148,6 @@ rule fit_sizes:
         lines="results/ensembles/size_lines.nc",
     output:
         csv="results/tables/sizes.csv",
-        nc="results/tables/sizes.nc",
     log:
         "results/logs/fit_sizes.log",
     benchmark:
@@ -180,7 +174,6 @@ rule tabulate_calibration:
         sizes="results/tables/sizes.csv",
     output:
         csv="results/tables/calibration.csv",
-        nc="results/tables/calibration.nc",
     log:
         "results/logs/tabulate_calibration.log",
     benchmark:
@@ -205,7 +198,6 @@ rule compare_grids:
         discs="results/ensembles/size_discs.nc",
     output:
         csv="results/tables/grid_dependence.csv",
-        nc="results/tables/grid_dependence.nc",
     log:
         "results/logs/compare_grids.log",
     benchmark:
@@ -233,11 +225,6 @@ rule fit_fine_grids:
             "results/tables/fine_exponents.csv",
             "results/tables/fine_velocities.csv",
             "results/tables/fine_costs.csv",
-        ],
-        nc=[
-            "results/tables/fine_exponents.nc",
-            "results/tables/fine_velocities.nc",
-            "results/tables/fine_costs.nc",
         ],
     log:
         "results/logs/fit_fine_grids.log",

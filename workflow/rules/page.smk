@@ -9,7 +9,7 @@ rule tables:
     """All tables, except those of measured surfaces and the costs of this run."""
     input:
         expand(
-            "results/tables/{table}.{kind}",
+            "results/tables/{table}.csv",
             table=[
                 "scaling",
                 "mdr_lambda",
@@ -41,7 +41,6 @@ rule tables:
                 "fine_costs",
                 "media",
             ],
-            kind=["csv", "nc"],
         ),
 
 
@@ -68,7 +67,6 @@ rule tabulate_rule_costs:
         rules.require_accuracy.output,
     output:
         csv="results/tables/rule_costs.csv",
-        nc="results/tables/rule_costs.nc",
     log:
         "results/logs/tabulate_rule_costs.log",
     benchmark:

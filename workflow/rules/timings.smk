@@ -5,7 +5,6 @@
 rule measure_methods:
     output:
         csv="results/tables/methods.csv",
-        nc="results/tables/methods.nc",
     log:
         "results/logs/measure_methods.log",
     benchmark:
@@ -30,7 +29,6 @@ rule measure_methods:
 rule measure_surfaces:
     output:
         csv="results/tables/one_surface.csv",
-        nc="results/tables/one_surface.nc",
     log:
         "results/logs/measure_surfaces.log",
     benchmark:
@@ -54,7 +52,6 @@ rule measure_surfaces:
 rule compare_level_placement:
     output:
         csv="results/tables/level_placement.csv",
-        nc="results/tables/level_placement.nc",
     log:
         "results/logs/compare_level_placement.log",
     benchmark:
@@ -86,7 +83,6 @@ rule compare_means:
         one_surface="results/tables/one_surface.csv",
     output:
         csv="results/tables/mean_accuracy.csv",
-        nc="results/tables/mean_accuracy.nc",
     log:
         "results/logs/compare_means.log",
     benchmark:
@@ -111,7 +107,6 @@ rule choose_models:
         mean_accuracy="results/tables/mean_accuracy.csv",
     output:
         csv="results/tables/sufficient_models.csv",
-        nc="results/tables/sufficient_models.nc",
     log:
         "results/logs/choose_models.log",
     benchmark:

@@ -21,7 +21,6 @@ rule judge_claims:
         ],
     output:
         csv="results/tables/claims.csv",
-        nc="results/tables/claims.nc",
         verdicts="results/tables/claims.md",
     log:
         "results/logs/judge_claims.log",

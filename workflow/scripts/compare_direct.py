@@ -2,18 +2,17 @@
 
 from viscorough_study.comparisons.direct_integration import COLUMNS, compare_direct
 from viscorough_study.run.job_log import run_job
-from viscorough_study.run.tables import recorded, write_table
+from viscorough_study.run.tables import write_table
 
 
-def main(csv, nc, **settings):
+def main(csv, **settings):
     """Write the table of depths by direct integration over elastic depths.
 
-    csv, nc : files to write; settings : arguments of `compare_direct`
+    csv : file to write; settings : arguments of `compare_direct`
     """
     table = compare_direct(**settings)
     title = "Direct integration and both readings of the law"
-    attributes = recorded(settings=settings)
-    write_table(table, csv, nc, columns=COLUMNS, dimension="point", title=title, attributes=attributes)
+    write_table(table, csv, columns=COLUMNS, title=title)
 
 
 run_job(globals(), main)

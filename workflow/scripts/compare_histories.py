@@ -2,17 +2,16 @@
 
 from viscorough_study.comparisons.histories import COLUMNS, compare_histories
 from viscorough_study.run.job_log import run_job
-from viscorough_study.run.tables import recorded, write_table
+from viscorough_study.run.tables import write_table
 
 
-def main(csv, nc, **settings):
+def main(csv, **settings):
     """Write the table of both motions of every disc.
 
-    csv, nc : files to write; settings : arguments of `compare_histories`
+    csv : file to write; settings : arguments of `compare_histories`
     """
     table = compare_histories(**settings)
-    attributes = recorded(settings=settings)
-    write_table(table, csv, nc, columns=COLUMNS, dimension="point", title="Any history", attributes=attributes)
+    write_table(table, csv, columns=COLUMNS, title="Any history")
 
 
 run_job(globals(), main)

@@ -4,21 +4,20 @@ from viscorough.io.datasets import read_dataset
 from viscorough_study.comparisons.mean_of_surfaces import COLUMNS, mean_accuracy
 from viscorough_study.performance.timing import machine
 from viscorough_study.run.job_log import run_job
-from viscorough_study.run.tables import read_table, recorded, write_table
+from viscorough_study.run.tables import read_table, write_table
 
 
-def main(discs, lines, size_discs, mdr_lambda, scaling, one_surface, csv, nc, **settings):
+def main(discs, lines, size_discs, mdr_lambda, scaling, one_surface, csv, **settings):
     """Write the table of the cost and the error of every model, and record the machine.
 
     discs, lines, size_discs : files with all realizations of discs, of lines, and of discs on grids from coarse to fine
     mdr_lambda, scaling, one_surface : CSV files of the tables with these names
-    csv, nc : files to write; settings : further arguments of `mean_accuracy`
+    csv : file to write; settings : further arguments of `mean_accuracy`
     """
     pools = map(read_dataset, (discs, lines, size_discs))
     table = mean_accuracy(*pools, *map(read_table, (mdr_lambda, scaling, one_surface)), **settings)
     title = "Models of the mean of many surfaces"
-    attributes = recorded(settings=settings, machine=machine())
-    write_table(table, csv, nc, columns=COLUMNS, dimension="measurement", title=title, attributes=attributes)
+    write_table(table, csv, columns=COLUMNS, title=title, machine=machine())
 
 
 run_job(globals(), main)

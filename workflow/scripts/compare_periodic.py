@@ -2,18 +2,17 @@
 
 from viscorough_study.comparisons.periodic_control import COLUMNS, periodic_control
 from viscorough_study.run.job_log import run_job
-from viscorough_study.run.tables import recorded, write_table
+from viscorough_study.run.tables import write_table
 
 
-def main(csv, nc, **settings):
+def main(csv, **settings):
     """Write the table of the compliance of periodic surfaces.
 
-    csv, nc : files to write; settings : arguments of `periodic_control`
+    csv : file to write; settings : arguments of `periodic_control`
     """
     table = periodic_control(**settings)
     title = "The control of two springs"
-    attributes = recorded(settings=settings)
-    write_table(table, csv, nc, columns=COLUMNS, dimension="level", title=title, attributes=attributes)
+    write_table(table, csv, columns=COLUMNS, title=title)
 
 
 run_job(globals(), main)

@@ -2,18 +2,17 @@
 
 from viscorough_study.comparisons.mdr_comparison import COLUMNS, compare_reduction
 from viscorough_study.run.job_log import run_job
-from viscorough_study.run.tables import recorded, write_table
+from viscorough_study.run.tables import write_table
 
 
-def main(csv, nc, **settings):
+def main(csv, **settings):
     """Write the table of stiffness, contact, mean gap and force of lines over those of discs.
 
-    csv, nc : files to write; settings : arguments of `compare_reduction`
+    csv : file to write; settings : arguments of `compare_reduction`
     """
     table = compare_reduction(**settings)
     title = "MDR, surface by surface"
-    attributes = recorded(settings=settings)
-    write_table(table, csv, nc, columns=COLUMNS, dimension="point", title=title, attributes=attributes)
+    write_table(table, csv, columns=COLUMNS, title=title)
 
 
 run_job(globals(), main)

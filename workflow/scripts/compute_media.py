@@ -3,19 +3,18 @@
 from viscorough.io import netcdf
 from viscorough_study.comparisons.media_kinetics import COLUMNS, media_of_batches
 from viscorough_study.run.job_log import run_job
-from viscorough_study.run.tables import recorded, write_table
+from viscorough_study.run.tables import write_table
 
 
-def main(curves, csv, nc, **settings):
+def main(curves, csv, **settings):
     """Write the table of depth, velocity and local exponent over time, in every medium.
 
     curves : files with the loading curves of all combinations of force, viscosity, diameter and rms height
-    csv, nc : files to write; settings : further arguments of `media_of_batches`
+    csv : file to write; settings : further arguments of `media_of_batches`
     """
     table = media_of_batches(map(netcdf.read, curves), **settings)
     title = "Kinetics in other media"
-    attributes = recorded(settings=settings)
-    write_table(table, csv, nc, columns=COLUMNS, dimension="point", title=title, attributes=attributes)
+    write_table(table, csv, columns=COLUMNS, title=title)
 
 
 run_job(globals(), main)

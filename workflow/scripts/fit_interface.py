@@ -6,24 +6,24 @@ The fit gives the part of vt/h that the interface contributes, and the plateau o
 from viscorough.io.datasets import read_dataset
 from viscorough_study.fits.interface import COLUMNS, CURVES, interface_tables
 from viscorough_study.run.job_log import run_job
-from viscorough_study.run.tables import recorded, write_tables
+from viscorough_study.run.tables import write_tables
 
 TABLES = {
-    "interface": {"columns": COLUMNS, "dimension": "ensemble", "title": "Interface and punch in series"},
-    "interface_curves": {"columns": CURVES, "dimension": "abscissa", "title": "Curves of the interface alone"},
+    "interface": {"columns": COLUMNS, "title": "Interface and punch in series"},
+    "interface_curves": {"columns": CURVES, "title": "Curves of the interface alone"},
 }
 
 
-def main(discs, lines, size_discs, size_lines, csv, nc, **settings):
+def main(discs, lines, size_discs, size_lines, csv, **settings):
     """Fit the model of punch and interface to every ensemble of discs and of lines, and write the tables.
 
     discs, lines : files with all realizations of the discs and of the lines that all figures use (base ensembles)
     size_discs, size_lines : files with all realizations of discs and of lines on grids from coarse to fine
-    csv, nc : lists of the CSV and NetCDF files to write, one for each table
+    csv : list of the files to write, one for each table
     settings : further arguments of `interface_tables`
     """
     tables = interface_tables(*map(read_dataset, (discs, lines, size_discs, size_lines)), **settings)
-    write_tables(tables, csv, nc, TABLES, recorded(settings=settings))
+    write_tables(tables, csv, TABLES)
 
 
 run_job(globals(), main)

@@ -6,19 +6,18 @@ Also find the factor λ in the spectrum C1D = λ q C2D of a line (Eq. 13) with w
 from viscorough.io.datasets import read_dataset
 from viscorough_study.fits.fit_table import COLUMNS, scaling_table
 from viscorough_study.run.job_log import run_job
-from viscorough_study.run.tables import recorded, write_table
+from viscorough_study.run.tables import write_table
 
 
-def main(discs, lines, csv, nc, **fit):
+def main(discs, lines, csv, **fit):
     """Fit every ensemble with each kind of mean, range of X and definition of h, and write the table of fits.
 
     discs, lines : files of the pools, the datasets of all realizations of discs and of lines
-    csv, nc : files to write
+    csv : file to write
     fit : arguments of `scaling_table`: limits of region (b), resamples and seed of the bootstrap
     """
     table = scaling_table(read_dataset(discs), read_dataset(lines), **fit)
-    title, attributes = "Power laws in region (b)", recorded(settings=fit)
-    write_table(table, csv, nc, columns=COLUMNS, dimension="fit", title=title, attributes=attributes)
+    write_table(table, csv, columns=COLUMNS, title="Power laws in region (b)")
 
 
 run_job(globals(), main)

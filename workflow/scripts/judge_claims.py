@@ -6,16 +6,16 @@ from viscorough.io.atomic import atomic_write
 from viscorough.io.datasets import read_dataset
 from viscorough_study.ensembles.pool import select
 from viscorough_study.run.job_log import run_job
-from viscorough_study.run.tables import read_table, recorded, write_table
+from viscorough_study.run.tables import read_table, write_table
 from viscorough_study.verdicts.claims import COLUMNS, judge, markdown, scale_attributes
 from viscorough_study.verdicts.evidence import Evidence
 
 
-def main(discs, tables, csv, nc, verdicts, *, claims, **settings):
+def main(discs, tables, csv, verdicts, *, claims, **settings):
     """Judge the claims by the loading curves of the base discs (group "base") and by tables, and write the verdicts.
 
     discs : file with the loading curves of discs of all groups; tables : CSV files, named after the tables
-    csv, nc, verdicts : files to write; verdicts is in Markdown
+    csv, verdicts : files to write, the table and Markdown
     claims : content of resources/paper/claims.yaml; settings : further fields of `Evidence`
     """
     evidence = Evidence(
@@ -26,8 +26,7 @@ def main(discs, tables, csv, nc, verdicts, *, claims, **settings):
     table = judge(claims, evidence)
     attributes = scale_attributes(evidence)
     title = "Verdicts on the paper's claims" + f" ({attributes['scale']})" * attributes["trial"]
-    attributes |= recorded(settings={name: settings[name] for name in ("seed", "resamples", "conventions", "rules")})
-    write_table(table, csv, nc, columns=COLUMNS, dimension="case_of_claim", title=title, attributes=attributes)
+    write_table(table, csv, columns=COLUMNS, title=title, **attributes)
     with atomic_write(verdicts) as temporary:
         temporary.write_text(markdown(table, claims), encoding="utf-8")
 

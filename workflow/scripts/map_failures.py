@@ -2,18 +2,17 @@
 
 from viscorough_study.robustness.failure_map import COLUMNS, map_failures
 from viscorough_study.run.job_log import run_job
-from viscorough_study.run.tables import recorded, write_table
+from viscorough_study.run.tables import write_table
 
 
-def main(csv, nc, **settings):
+def main(csv, **settings):
     """Write the table of the verdicts on every method in every case.
 
-    csv, nc : files to write; settings : arguments of `map_failures`
+    csv : file to write; settings : arguments of `map_failures`
     """
     table = map_failures(**settings)
     title = "Every method in every stress-test case"
-    attributes = recorded(settings=settings)
-    write_table(table, csv, nc, columns=COLUMNS, dimension="cell", title=title, attributes=attributes)
+    write_table(table, csv, columns=COLUMNS, title=title)
 
 
 run_job(globals(), main)

@@ -4,19 +4,18 @@ from datetime import date
 
 from viscorough_study.performance import timing
 from viscorough_study.run.job_log import run_job
-from viscorough_study.run.rule_costs import COLUMNS, rule_costs, versions
-from viscorough_study.run.tables import recorded, write_table
+from viscorough_study.run.rule_costs import COLUMNS, rule_costs
+from viscorough_study.run.tables import write_table
 
 
-def main(csv, nc, *, benchmarks):
+def main(csv, *, benchmarks):
     """Write the table with the time and the memory of every rule.
 
     benchmarks : {name of a rule: files with the time and memory of its jobs, from Snakemake}
     """
     made = {"date": date.today().isoformat()}
-    attributes = recorded(machine=timing.machine(), versions=versions(), made=made)
     table, title = rule_costs(benchmarks), "Time and memory of every rule"
-    write_table(table, csv, nc, columns=COLUMNS, dimension="rule", title=title, attributes=attributes)
+    write_table(table, csv, columns=COLUMNS, title=title, machine=timing.machine(), made=made)
 
 
 run_job(globals(), main)

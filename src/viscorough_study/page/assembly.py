@@ -13,7 +13,7 @@ from viscorough_study.page.results import read_published, read_results
 from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
 from viscorough_study.run.readable import readable
 from viscorough_study.run.rule_costs import duration_text
-from viscorough_study.run.tables import read_recorded
+from viscorough_study.run.tables import split_table
 from viscorough_study.verdicts.answer import answer, short_answer
 from viscorough_study.verdicts.claims import findings
 
@@ -57,7 +57,7 @@ def contents_of(project, discs, lines, *, tables, claims, numbers, made_by, chan
     published = read_published(project / "docs/claims.csv")
     conventions = results.settings["claims"]["conventions"]
     scale, verdicts = content.scale(discs, lines, numbers), content.verdicts(results, claims, published)
-    costs_nc = Path(tables["rule_costs"]).with_suffix(".nc")
+    costs = split_table(tables["rule_costs"])[0]
     return {
         "results": results,
         "conventions": conventions,
@@ -85,7 +85,8 @@ def contents_of(project, discs, lines, *, tables, claims, numbers, made_by, chan
         "changed": {name: [content.as_yaml(value) for value in pair] for name, pair in changed.items()},
         "files": files,
         "costs": results.records("rule_costs"),
-        **{name: read_recorded(costs_nc, name) for name in ("machine", "versions", "made")},
+        "versions": costs["made_with"]["versions"],
+        **{name: costs[name] for name in ("machine", "made")},
         "time": duration_text(results.tables["rule_costs"]["share_s"].sum()),
         "paper_time": numbers["boundary_elements"]["computing_time"]["value"],
     }

@@ -5,11 +5,10 @@ and the Snakemake rule that made the table, with its script. A reader or a test 
 """
 
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import pandas as pd
 
-from viscorough_study.run.tables import read_recorded, read_table
+from viscorough_study.run.tables import read_table, split_table
 
 MAY_BE_EMPTY = ("convention", "reason", "setting")  # columns of texts; some of these texts may be empty
 # With these options, pandas.read_csv replaces only empty fields by nan, and keeps texts such as "none".
@@ -40,10 +39,10 @@ class Number:
     def attributes(self):
         """Return attributes of the HTML element that holds the number: value, tooltip, and place in the table.
 
-        The tooltip states the line of the CSV file, counted from 1, with the header as line 1.
+        The tooltip states the line of the CSV file, counted from 1; the names of the columns are in line 2.
         """
         if self.counted is None:
-            place = f"line {self.row + 2}, column {self.column}"
+            place = f"line {self.row + 3}, column {self.column}"
         else:
             place = f"{self.column}: number of {self.counted}"
         title = "; ".join(filter(None, (f"results/tables/{self.table}.csv, {place}", self.origin)))
@@ -104,13 +103,13 @@ class Results:
 
 
 def read_results(tables, made_by):
-    """Read the Results of a run: tables from CSV files, and their settings from NetCDF files.
+    """Read the Results of a run: tables and their settings.
 
-    tables : {name: path of the CSV file}; the NetCDF file has the same path, except for the suffix .nc
+    tables : {name: path of the CSV file}
     made_by : {name of a table: Snakemake rule that made it}
     """
-    files = {name: Path(path).with_suffix(".nc") for name, path in tables.items()}
-    settings = {name: read_recorded(file, "settings", missing={}) for name, file in files.items()}
+    headers = {name: split_table(path)[0] for name, path in tables.items()}
+    settings = {name: header.get("made_with", {}).get("settings", {}) for name, header in headers.items()}
     read = {name: read_table(path, **_ONLY_EMPTY_IS_MISSING) for name, path in tables.items()}
     return Results({name: _with_empty_texts(table) for name, table in read.items()}, settings, made_by)
 

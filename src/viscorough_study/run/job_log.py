@@ -6,19 +6,21 @@ import sys
 import traceback
 
 from viscorough.basics.errors import ConvergenceError
+from viscorough_study.run.made_with import record_job
 
 
 def run_job(names, main):
-    """Set up the log of a Snakemake job, and call the script's `main` with the files and params of the job.
+    """Set up the log and the record of a Snakemake job, and call the script's `main` with its files and params.
 
     Do nothing if Snakemake does not run the script.
 
     names : global names of the script, which contain `snakemake` in a job
     main : function of the named inputs, outputs and params of the rule. The param `source` is left out: it is the
-        digest of the source code, which only decides about reruns.
+        digest of the source code, which decides about reruns and is recorded.
     """
     if job := names.get("snakemake"):
         log_to(job.log[0])
+        record_job(job.rule, job.input, dict(job.params.items()))
         params = {name: value for name, value in job.params.items() if name != "source"}
         try:
             main(**job.input, **job.output, **params)

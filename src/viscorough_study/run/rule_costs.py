@@ -2,8 +2,6 @@
 
 import math
 import os
-import platform
-from importlib.metadata import version
 from itertools import pairwise
 from pathlib import Path
 
@@ -18,7 +16,6 @@ COLUMNS = {
     "longest_s": ("longest wall time of one job", "s"),
     "memory_mb": ("largest resident memory of one job", "Mbyte"),
 }
-PACKAGES = ("viscorough", "numpy", "scipy", "numba", "ducc0", "xarray", "netCDF4", "pandas", "matplotlib", "snakemake")
 
 
 def rule_costs(benchmarks):
@@ -66,11 +63,6 @@ def duration_text(seconds):
     if seconds < 100:
         return f"{seconds:.0f} seconds"
     return f"{seconds / 60:.1f} minutes" if seconds < 6000 else f"{seconds / 3600:.1f} hours"
-
-
-def versions():
-    """Return {name: version} of Python and of the packages that compute, store and draw."""
-    return {"Python": platform.python_version()} | {name: version(name) for name in PACKAGES}
 
 
 def _time_and_memory(path):

@@ -7,7 +7,7 @@ from support.page import Page, number_in
 from viscorough_study.page.render import caption, number, percent
 from viscorough_study.page.results import Number, Results, read_results
 from viscorough_study.run.readable import readable
-from viscorough_study.run.tables import recorded, write_table
+from viscorough_study.run.tables import write_table
 
 
 def test_numbers_are_readable():
@@ -25,7 +25,7 @@ def test_numbers_name_their_table_cell():
     html += str(number(Number(3, "claims", "verdict", counted="not <b>")))
     (_, place, text), (_, count, counted) = Page(html).numbers
     wanted = {"value": "0.123456", "data-table": "claims", "data-row": "7", "data-column": "value"}
-    assert place == wanted | {"title": "results/tables/claims.csv, line 9, column value"}
+    assert place == wanted | {"title": "results/tables/claims.csv, line 10, column value"}
     assert (text, counted) == ("0.123", "3")
     assert count["data-counted"] == "not <b>"
     assert str(percent(Number(0.0131, "methods", "error", 0))).endswith(">1.31 %</data>")
@@ -35,9 +35,8 @@ def test_numbers_name_their_table_cell():
 def test_results_give_numbers_with_their_table_cells(tmp_path):
     table = pd.DataFrame({"kind": ["a", "b", "a"], "error": [0.3, 0.1, np.nan]})
     columns = {"kind": ("kind", ""), "error": ("error", "1")}
-    files = tmp_path / "errors.csv", tmp_path / "errors.nc"
-    attributes = recorded(settings={"seed": 1})
-    write_table(table, *files, columns=columns, dimension="row", title="Errors", attributes=attributes)
+    made_with = {"settings": {"seed": 1}}
+    write_table(table, tmp_path / "errors.csv", columns=columns, title="Errors", made_with=made_with)
     results = read_results({"errors": tmp_path / "errors.csv"}, {})
     rows = results.rows("errors", kind="a")
     assert results.extremes(rows, "errors", "error") == 2 * (Number(0.3, "errors", "error", 0),)
@@ -55,6 +54,6 @@ def test_captions_become_html_with_the_conventions_of_the_figures():
 
 def test_numbers_state_the_rule_of_their_table_and_its_script():
     results = Results({"scaling": pd.DataFrame({"beta": [0.4]})}, {}, {"scaling": "fit_power_laws"})
-    place = "results/tables/scaling.csv, line 2, column beta"
+    place = "results/tables/scaling.csv, line 3, column beta"
     origin = "rule fit_power_laws, workflow/scripts/fit_power_laws.py"
     assert results.number("scaling", 0, "beta").attributes["title"] == f"{place}; {origin}"

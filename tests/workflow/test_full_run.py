@@ -73,7 +73,7 @@ def test_every_job_has_a_log_and_a_benchmark(finished_once):
     table = read_table(finished_once / "results/tables/rule_costs.csv").set_index("rule")
     assert {"tabulate_rule_costs", "make_page"} & set(table.index) == set(), "they run after the others"
     assert table["jobs"].sum() == number - 2 + 1, "and the compilation"
-    assert table.loc["indent_surfaces", "jobs"] == 6
+    assert table.loc["indent_surfaces", "jobs"] == 8
     assert (table["longest_s"] <= table["seconds"]).all()
     assert table["seconds"].is_monotonic_decreasing
 
@@ -111,7 +111,7 @@ def test_scaling_table_has_every_ensemble(finished_once):
     ensembles = set(table[["source", "case_group", "hurst"]].itertuples(index=False, name=None))
     assert ensembles == {
         (source, group, hurst)
-        for source, group in (("discs", "base"), ("discs", "longer_period"), ("lines", "base"))
+        for source, group in (("discs", "base"), ("discs", "longer_period"), ("discs", "roll_off"), ("lines", "base"))
         for hurst in (0.4, 0.9)
     }
     # Both combinations are pooled. Only discs of the base group have lines to compare with.
@@ -119,6 +119,7 @@ def test_scaling_table_has_every_ensemble(finished_once):
     with_lambda = table.dropna(subset=["lambda"])
     assert set(with_lambda["source"]) == {"discs"}
     assert set(with_lambda["case_group"]) == {"base"}
+    assert set(table.loc[table["reading"] == "B", "case_group"]) == {"longer_period"}
 
 
 def test_combinations_are_in_real_units(finished_once):

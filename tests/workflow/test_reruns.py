@@ -92,8 +92,8 @@ OF_CONVENTIONS |= {"plot_kinetics", "plot_master_curve", "plot_exponent", "plot_
 def test_changed_setting_reruns_only_the_rules_that_use_it(finished_once, tmp_path, with_dependents, changed, directly):
     planned = plan(finished_once, *TEST, settings_file(tmp_path, "changed", **changed))
     assert set(planned) == with_dependents(directly) | LAST
-    if "surface" in changed:  # the variant has its own period; grids and their control have one batch each
-        assert planned["generate_discs"] == planned["indent_surfaces"] == 2 + 2
+    if "surface" in changed:  # longer_period has its own period; sizes and controls have one batch each
+        assert planned["generate_discs"] == planned["indent_surfaces"] == 2 + 2 + 2
 
 
 def test_changed_lines_rerun_no_rule_that_uses_only_discs(finished_once, tmp_path, with_dependents):
@@ -107,9 +107,9 @@ def test_further_exponent_reruns_only_its_dependents(finished_once, tmp_path):
     more = settings_file(tmp_path, "more", discs={"hurst": [0.4, 0.6, 0.9]}, lines={"hurst": [0.4, 0.6, 0.9]})
     text = snakemake(finished_once, "--dry-run", *TEST, more)
     cases = set(re.findall(r"^Job \d+: .*\b(h\d{5}\w*)", text, re.MULTILINE))
-    assert cases == {"h06000", "h06000_longer_period"}
+    assert cases == {"h06000", "h06000_longer_period", "h06000_roll_off"}
     planned = jobs(text)
-    assert (planned["indent_surfaces"], planned["reduce_lines"], planned["aggregate_curves"]) == (2, 2, 2)
+    assert (planned["indent_surfaces"], planned["reduce_lines"], planned["aggregate_curves"]) == (3, 2, 2)
     assert "compare_exact" not in planned
 
 
@@ -126,7 +126,7 @@ def test_additions_keep_existing_curves(finished_once, tmp_path, discs):
 
 def test_new_seed_reruns_the_curves_of_all_random_surfaces(finished_once, tmp_path):
     planned = plan(finished_once, *TEST, settings_file(tmp_path, "seed", seed=5), "--", "curves")
-    assert planned == dict.fromkeys(("generate_discs", "indent_surfaces", "reduce_lines"), 4)
+    assert planned == {"generate_discs": 6, "indent_surfaces": 6, "reduce_lines": 4}
 
 
 def test_kept_surfaces_belong_to_the_curves(finished):
@@ -139,7 +139,7 @@ def test_kept_surfaces_belong_to_the_curves(finished):
         assert curves["rms_disc"].values.tolist() == kept
     assert plan(finished, *TEST) == {}
     planned = plan(finished, *TEST, settings_file(finished, "accurate", discs={"tolerance": 5e-3}))
-    assert (planned["generate_discs"], planned["indent_surfaces"]) == (5, 6)  # one file of discs exists
+    assert (planned["generate_discs"], planned["indent_surfaces"]) == (7, 8)  # one file of discs exists
 
 
 def test_comments_rerun_nothing(editable):

@@ -7,7 +7,7 @@ from support.workflow import TEST, jobs, plan, snakemake
 
 @pytest.mark.parametrize(
     ("name", "indent_surfaces", "reduce_lines", "indent_nested"),
-    [("config", 4 * (2 + 1) + 2, 22, 20), ("paper", 4 * (8 + 8) + 4, 102, 20)],
+    [("config", 4 * (2 + 1 + 1) + 2, 22, 20), ("paper", 4 * (8 + 1 + 7) + 4, 102, 20)],
 )
 def test_large_scales_have_a_plan(unmade, name, indent_surfaces, reduce_lines, indent_nested):
     planned = plan(unmade, "--configfile", f"config/{name}.yaml")
@@ -17,7 +17,7 @@ def test_large_scales_have_a_plan(unmade, name, indent_surfaces, reduce_lines, i
     assert planned.pop("aggregate_curves") == 4
     assert set(planned.values()) == {1}
     assert {"require_accuracy", "fit_power_laws", "judge_claims", "make_page"} < set(planned)
-    assert 2 * indent_surfaces + reduce_lines + sum(planned.values()) <= (110 if name == "config" else 300)
+    assert 2 * indent_surfaces + reduce_lines + sum(planned.values()) <= (120 if name == "config" else 300)
 
 
 @pytest.mark.long

@@ -130,7 +130,7 @@ rule compare_zeta_laws:
     resources:
         mem_mb=2000,
     params:
-        conventions=chosen("figures", "average", "rms_convention"),
+        average=config["figures"]["average"],
         hurst_mins=[0.0, paper("numbers")["agreement"]["beta_hurst_min"]["value"]],
         fit=without("scaling", "resamples"),
         resamples=config["scaling"]["resamples"],

@@ -19,6 +19,13 @@ from scipy.special import gamma as gamma_function
 
 from viscorough import reference
 
+# The two readings of the paper's surfaces, which the paper does not describe: {reading: columns of a table of fits}.
+# A: the period of the square equals the diameter, and h is the rms height of the disc. B: the disc is cut from a square
+# of twice its diameter, and h is the rms height of the square.
+READINGS = {
+    "A": {"case_group": "base", "rms_convention": "disc"},
+    "B": {"case_group": "longer_period", "rms_convention": "square"},
+}
 FITTED = {
     "rms_convention": ("disc", "square", "ensemble"),  # for lines the value is "line"
     "average": ("arithmetic", "geometric"),
@@ -63,6 +70,12 @@ def in_reading(fits, gamma):
     fixed = {name: fits[name] * scale for name in names}
     converted = fits.assign(zeta=zeta, zeta_low=fits[low], zeta_high=fits[high], gamma=gamma, **fixed)
     return converted.drop(columns=list(interval_columns("with")))
+
+
+def reading_of(case_group, rms_convention):
+    """Return the reading of the paper's surfaces to which a fit belongs, "" if to none. Lines belong to reading A."""
+    own = {"case_group": case_group, "rms_convention": "disc" if rms_convention == "line" else rms_convention}
+    return next((reading for reading, columns in READINGS.items() if columns == own), "")
 
 
 def as_text(conventions):

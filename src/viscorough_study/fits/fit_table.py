@@ -17,7 +17,15 @@ import pandas as pd
 from viscorough import reference
 from viscorough.law.calibrated_law import COLUMNS as CALIBRATION
 from viscorough_study.ensembles.pool import elements_across, ensembles, select
-from viscorough_study.fits.conventions import FITTED, GAMMA, fits, interval_columns, source_values, zeta_scale
+from viscorough_study.fits.conventions import (
+    FITTED,
+    GAMMA,
+    fits,
+    interval_columns,
+    reading_of,
+    source_values,
+    zeta_scale,
+)
 from viscorough_study.fits.intervals import described, described_ends, three_columns, with_interval
 from viscorough_study.fits.mdr_lambda import match_lines
 from viscorough_study.fits.power_law import fit_power_law, in_window, log_means, named_windows
@@ -25,7 +33,8 @@ from viscorough_study.fits.power_law import fit_power_law, in_window, log_means,
 # {column: (long_name, units)}, in the order of the table. Columns of text have the units None.
 COLUMNS = {
     "source": ("discs (boundary elements) or lines (method of dimensionality reduction)", None),
-    "case_group": ("base or name of the variant of the surfaces", None),
+    "reading": ("reading of the surfaces: A (period L, h of the disc), B (longer period, h of the square)", None),
+    "case_group": ("base, longer_period or name of the variant of the surfaces", None),
     "hurst": ("Hurst exponent H", "1"),
     "rms_convention": ("where the rms height h is measured", None),
     "average": ("mean over the realizations at fixed X", None),
@@ -107,6 +116,7 @@ def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **lim
         selected = ensemble.sel(rms_convention=rms_convention)
         ensemble_columns = {"source": source, "case_group": case_group, "hurst": ensemble["hurst"].item()}
         ensemble_columns |= {"rms_convention": rms_convention, "realizations": selected.sizes["realization"]}
+        ensemble_columns["reading"] = reading_of(case_group, rms_convention)
         windows = named_windows(selected, **limits)
         for average in FITTED["average"]:
             bootstrap = {"average": average, "resamples": resamples, "seed": seed}

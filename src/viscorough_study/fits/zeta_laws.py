@@ -24,6 +24,7 @@ from scipy.special import gamma as gamma_function
 
 from viscorough import reference
 from viscorough_study.ensembles.pool import ensembles, select
+from viscorough_study.fits.conventions import READINGS
 from viscorough_study.fits.intervals import UNDEFINED, with_interval
 from viscorough_study.fits.power_law import in_window, log_means, named_windows
 
@@ -35,6 +36,7 @@ LAWS = {  # {name: (ζ as a function of H, True if the law has the factor 1/Γ(2
 LAST = list(LAWS)[-1]  # name of the law with which the other laws are compared
 MEASURES = ("deviation", "common factor", "residual", "factor of X", "residual with factor of X")
 COLUMNS = {
+    "reading": ("reading of the surfaces: A (period L, h of the disc), B (longer period, h of the square)", ""),
     "hurst_min": ("lowest Hurst exponent allowed", "1"),
     "range": ("range of X: region, or common", ""),
     "law": ("law; of two laws, the measure of the first less that of the second", ""),
@@ -46,21 +48,26 @@ COLUMNS = {
 }
 
 
-def zeta_laws_of_pool(discs, *, conventions, hurst_mins, fit, resamples, seed):
-    """Compare the paper's laws of ζ(H) with the base discs, which all figures use; return the table of `zeta_laws`.
+def zeta_laws_of_pool(discs, *, average, hurst_mins, fit, resamples, seed):
+    """Compare the paper's laws of ζ(H) with the discs of both readings; return the table with the columns `COLUMNS`.
 
     discs : pool of the loading curves of discs (viscorough_study.ensembles.pool)
-    conventions : {"average": kind of mean over the discs, "rms_convention": where h is measured}
+    average : "arithmetic" or "geometric" mean over the discs
     fit : arguments of fits.power_law.named_windows, whose default window is region (b)
     hurst_mins, resamples, seed : arguments of `zeta_laws`
     """
-    base = ensembles(select(discs, group="base"), "hurst", rms_convention=conventions["rms_convention"])
-    pooled = dict(sorted(base.items()))
-    windows = {hurst: named_windows(members, **fit)["default"] for hurst, members in pooled.items()}
-    return zeta_laws(pooled, windows, hurst_mins, average=conventions["average"], resamples=resamples, seed=seed)
+    tables = []
+    for reading, chosen in READINGS.items():
+        members = select(discs, group=chosen["case_group"])
+        pooled = dict(sorted(ensembles(members, "hurst", rms_convention=chosen["rms_convention"]).items()))
+        windows = {hurst: named_windows(ensemble, **fit)["default"] for hurst, ensemble in pooled.items()}
+        tables.append(
+            zeta_laws(pooled, windows, hurst_mins, reading=reading, average=average, resamples=resamples, seed=seed)
+        )
+    return pd.concat(tables, ignore_index=True)
 
 
-def zeta_laws(ensembles, windows, hurst_mins=(0.0,), *, average, resamples, seed):
+def zeta_laws(ensembles, windows, hurst_mins=(0.0,), *, average, resamples, seed, reading="A"):
     """Compute how well each of the paper's laws of ζ(H) agrees with the curves (see the module).
 
     Returns a pandas.DataFrame with the columns of `COLUMNS`. It has the measures of every law. For every law except
@@ -73,6 +80,7 @@ def zeta_laws(ensembles, windows, hurst_mins=(0.0,), *, average, resamples, seed
     hurst_mins : list of Hurst exponents; the laws are compared once for each entry, with the curves of all H that are
         at least this entry
     average : "arithmetic" or "geometric" mean over the realizations
+    reading : reading of the surfaces to which the ensembles belong (fits.conventions.READINGS), for the table
     resamples, seed : number of resamples and seed of the bootstrap, which draws the realizations of each Hurst exponent
         independently
     All values are nan if one of the compared Hurst exponents has no region (b). The values for "common" are nan if the
@@ -94,18 +102,19 @@ def zeta_laws(ensembles, windows, hurst_mins=(0.0,), *, average, resamples, seed
                 measures[difference(law)] = less
             for law, law_measures in measures.items():
                 for measure, values in law_measures.items():
-                    rows.append((hurst_min, name, law, measure, *with_interval(values, number), number))
+                    rows.append((reading, hurst_min, name, law, measure, *with_interval(values, number), number))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
-def measure_value(table, range_of_x, law, measure, hurst_min=0.0):
+def measure_value(table, range_of_x, law, measure, hurst_min=0.0, reading="A"):
     """Look up a measure in the table of `zeta_laws`; return (value, low, high), with the ends of the 95 % interval.
 
-    range_of_x, measure, hurst_min : entries of the columns range, measure and hurst_min
+    range_of_x, measure, hurst_min, reading : entries of the columns range, measure, hurst_min and reading
     law : key of `LAWS`, or result of `difference`
     The result is nan if the table has no such row.
     """
-    rows = table.query("range == @range_of_x and law == @law and measure == @measure and hurst_min == @hurst_min")
+    chosen = "reading == @reading and range == @range_of_x and law == @law and measure == @measure"
+    rows = table.query(f"{chosen} and hurst_min == @hurst_min")
     return tuple(rows[["value", "low", "high"]].iloc[0].tolist()) if len(rows) else UNDEFINED
 
 

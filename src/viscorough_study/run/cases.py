@@ -74,11 +74,24 @@ def _paper_discs(settings):
             name = hurst_id(hurst) + (f"_{number // 10}0" if number >= 10 else "")
             case = cases.setdefault(name, shared | base | {"ensembles": []})
             case["ensembles"].append(ensemble | {"combination": combination})
+        cases |= {f"{hurst_id(hurst)}_longer_period": _longer_period(settings, hurst, shared)}
         for name, changed in _changes_of_variants(settings).items():
             surface = settings["surface"] | changed | UNIT_DISC | {"hurst": hurst}
             ensemble = _ensemble(f"{hurst_id(hurst)}_{name}", seeds.variant_key(hurst, name), surface, discs | variants)
             cases[ensemble["name"]] = _joint_case([ensemble], variants["batch"], name, **shared)
     return cases
+
+
+def _longer_period(settings, hurst, shared):
+    """Return the case of the discs cut from a square of a longer period; shared : keys that all cases have."""
+    own = settings["discs"]["longer_period"]
+    surface = settings["surface"] | UNIT_DISC | {"hurst": hurst, "period": own["period"], "rms_over": "square"}
+    grid = {"elements": settings["discs"]["elements"], "realizations": own["realizations"]}
+    name = f"{hurst_id(hurst)}_longer_period"
+    ensemble = _ensemble(name, seeds.variant_key(hurst, "longer_period"), surface, grid)
+    ends = {"until_x": own["until_x"], "short_until_x": own["until_x"], "whole_curves": 0}
+    own_shared = shared | {"indentation": shared["indentation"] | ends}
+    return _joint_case([ensemble], own["batch"], "longer_period", **own_shared)
 
 
 def _changes_of_variants(settings):

@@ -44,6 +44,20 @@ class Combination(Section):
     )
 
 
+PERIOD = real(1, 16, unit="L")
+
+
+class LongerPeriod(Section):
+    """Discs that are cut from a square larger than the disc, with h of the square: a second reading of the paper."""
+
+    period: PERIOD = meaning("period of the square that these discs are cut from")
+    realizations: REALIZATIONS = meaning("surfaces per Hurst exponent, all with h = L = 1 m")
+    until_x: real(1e-14, 1e4) = meaning(
+        "X at which all of these curves end, beyond region (b)", also=f"{TEN_TIMES} `ensemble.x_low`"
+    )
+    batch: BATCH = meaning("realizations per job")
+
+
 class Discs(Section):
     """Self-affine discs with lengths in metres, indented by boundary elements."""
 
@@ -69,13 +83,13 @@ class Discs(Section):
         "realizations of every combination in a job; at most these are lost when it is killed. A change alters no "
         "result, but all of these curves are computed again"
     )
+    longer_period: LongerPeriod
     combinations: several(Combination, 1, 99, once="number") = meaning(
         "combinations of force, viscosity, diameter and rms height, as in the paper's Fig. 2; each has its own "
         "surfaces. The nine values are ours, because the paper does not list its own"
     )
 
 
-PERIOD = real(1, 16, unit="L")
 AMPLITUDES = Literal["random", "fixed"]
 RMS_OVER = Literal["disc", "square"]
 ROLL_OFF_WAVELENGTH = real(above=0, high=16, unit="L") | None
@@ -115,8 +129,8 @@ class Variant(Section):
     model_config = ConfigDict(json_schema_extra={"minProperties": 2})
 
     name: text(
-        r"^(?!(base|controls|lines|sizes)$)[a-z][a-z_]{2,30}$(?!\n)",
-        "a-z and _, at least three, not `base`, `controls`, `lines`, `sizes`",
+        r"^(?!(base|controls|lines|longer_period|sizes)$)[a-z][a-z_]{2,30}$(?!\n)",
+        "a-z and _, at least three, not `base`, `controls`, `lines`, `longer_period`, `sizes`",
     ) = meaning("name in file names, tables and seeds")
     period: PERIOD = meaning("replaces `surface.period`", None)
     corners: bool = meaning("replaces `surface.corners`", None)

@@ -18,6 +18,7 @@ _RANGES = [
     ("media.times.low", "media.times.high", 10),
     ("ensemble.x_low", "indentation.until_x", 10),
     ("ensemble.x_low", "sizes.until_x", 10),
+    ("ensemble.x_low", "discs.longer_period.until_x", 10),
     ("verdicts.plateau_range.0", "verdicts.plateau_range.1", 10),
     ("scaling.stiffness_range.0", "scaling.stiffness_range.1", 1.01),
 ]

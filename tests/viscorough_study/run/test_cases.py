@@ -15,7 +15,7 @@ def test_spawn_keys_do_not_depend_on_order(settings):
     discs, lines = cases.disc_cases(settings), cases.line_cases(settings)
     all_cases = [*discs.values(), *lines.values()]
     keys = [ensemble["spawn_key"] for case in all_cases for ensemble in case["ensembles"]]
-    assert len(set(keys)) == len(keys) == 4 * 10 + 21 + 5 * (4 + 3) + 4
+    assert len(set(keys)) == len(keys) == 4 * 11 + 21 + 5 * (4 + 3) + 4
     assert cases.combined_ensembles(settings)["h01000_c3"]["spawn_key"] == (1, 100000, 3)
     assert discs["h01000_roll_off"]["ensembles"][0]["spawn_key"][:2] == (2, 100000)
     assert discs["sizes"]["ensembles"][3]["spawn_key"] == (8, 100000, 257)
@@ -31,7 +31,7 @@ def test_every_case_is_in_one_pool(settings):
     pooled = [(cases.POOL_KINDS[pool], case) for pool in cases.POOLS for case, _ in cases.pool_batches(tables, pool)]
     assert set(pooled) == {(kind, case) for kind, table in tables.items() for case in table}
     assert cases.pool_batches(tables, "discs")[:2] == [("h01000", "0000-0039"), ("h01000", "0040-0079")]
-    assert len(cases.pool_batches(tables, "discs")) == 4 * (2 + 1)
+    assert len(cases.pool_batches(tables, "discs")) == 4 * (2 + 1 + 1)
     assert cases.pool_batches(tables, "size_lines") == [("sizes", "0000-0239")]
 
 
@@ -70,6 +70,15 @@ def test_batch_has_the_same_realizations_of_all_combinations(settings):
     assert {(*ensemble["numbers"], ensemble["elements"]) for ensemble in batch} == {(2, 6, 257)}
 
 
+def test_discs_of_the_second_reading_are_cut_from_a_square_of_their_own_period(settings):
+    settings["surface"]["period"] = 1.5
+    case = cases.disc_cases(settings)["h06000_longer_period"]
+    (ensemble,) = case["ensembles"]
+    assert (ensemble["surface"]["period"], ensemble["surface"]["rms_over"]) == (2.0, "square")
+    assert (case["group"], ensemble["realizations"], cases.batches(case)) == ("longer_period", 240, ["0000-0239"])
+    assert (case["indentation"]["until_x"], case["indentation"]["short_until_x"]) == (0.3, 0.3)
+
+
 def test_tenth_combination_is_a_separate_case(settings):
     """The batches of the nine combinations stay as they are, in whatever order the settings name them."""
     nine = cases.disc_cases(settings)
@@ -84,7 +93,7 @@ def test_tenth_combination_is_a_separate_case(settings):
 def test_compared_surfaces_differ_only_in_open_choices_of_the_paper(settings):
     assert cases.surfaces_left_open(settings) == ["base"]  # without the control
     surfaces = cases.surfaces_left_open(merged(settings, read_settings("paper")))
-    assert len(set(surfaces)) == len(surfaces) == 8
+    assert len(set(surfaces)) == len(surfaces) == 7
 
 
 @pytest.mark.parametrize("name", ["config", "paper"])

@@ -1,23 +1,17 @@
-"""Measure how often the stated error of the grid covers the true error, and the cost of requested errors.
+"""Measure how often the stated error of the grid covers the true error.
 
-    python calibration/grid_errors.py coverage --surfaces 200 --cores 2 --output build/grid_coverage.csv
-    python calibration/grid_errors.py requests --surfaces 100 --cores 2 --output build/grid_requests.csv
-    python calibration/grid_errors.py requests --across 2049 --hurst 0.8 --hurst 0.4 --error 0.05 --surfaces 2 \\
-        --output build/grid_large.csv
+    python calibration/grid_errors.py --surfaces 200 --cores 2 --output build/grid_coverage.csv
 
-- `coverage`: the true error is the deviation from the same map sampled four times finer. It is compared with the stated
-  error at given X = F/(4GhL), as root mean squares over half a decade of force to either side, and over all forces from
-  X = 0.01 on. Maps are discs with odd and even numbers of elements across, discs with holes, and discs of rectangular
-  elements. The safety factors of viscorough.contact.grid_error were calibrated on the sample "calibration"; the sample
-  "test" has different surfaces.
-- `requests`: the error against the curve of all points over X = 0.01 to 3, and the processor time over the time of this
-  curve. A request is met if the error is within it.
+The true error is the deviation from the same map sampled four times finer. It is compared with the stated error at
+given X = F/(4GhL), as root mean squares over half a decade of force to either side, and over all forces from X = 0.01
+on. Maps are discs with odd and even numbers of elements across, discs with holes, and discs of rectangular elements.
+The safety factors of viscorough.contact.grid_error were calibrated on the sample "calibration"; the sample "test" has
+different surfaces.
 
 The script imports measuring.py from benchmarks/, which PYTHONPATH must name.
 """
 
 import time
-import warnings
 from functools import partial
 from multiprocessing import Pool
 
@@ -27,7 +21,7 @@ import pandas as pd
 from measuring import output_option, run_timed, save_table
 from tqdm import tqdm
 
-from viscorough import AccuracyWarning, Indenter, indent
+from viscorough import Indenter, indent
 from viscorough.surfaces.self_affine import cut_disc, self_affine_square
 
 SEED = 20130513
@@ -42,7 +36,6 @@ PER_DECADE = 100
 HALF_WINDOW = np.log(10) / 2
 # Share of the disc in holes, and their diameter over the diameter of the disc.
 SHARE_OF_HOLES, HOLE = 0.1, 0.1
-ERRORS = (0.2, 0.1, 0.05, 0.02)
 
 
 # ---- maps
@@ -157,49 +150,7 @@ def summary_of_coverage(table):
     return pd.DataFrame(lines)
 
 
-# ---- curves to a requested error
-
-
-def requests_of(sample, across, hurst, errors, number):
-    """Return rows of sampling, errors and cost of curves to requested errors, on one disc."""
-    exponent = hurst[number % len(hurst)]
-    heights = cut_disc(self_affine_square(exponent, across, seed=seed_of(sample, number)), across)
-    disc = Indenter(heights / np.nanstd(heights), 1.0)
-    start = time.process_time()
-    full = indent(disc)
-    whole = time.process_time() - start
-    rows = []
-    for error in errors:
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always", AccuracyWarning)
-            start = time.process_time()
-            curve = indent(disc, error=error)
-            cost = (time.process_time() - start) / whole
-        low, high = max(full.force[0], curve.force[0]), min(full.force[-1], curve.force[-1])
-        force = force_scale(disc) * np.geomspace(X[0], X[-1], int(PER_DECADE * np.log10(X[-1] / X[0])))
-        force = force[(force >= low) & (force <= high)]
-        true = np.sqrt(np.mean(np.log(full.at_force(force)[1] / curve.at_force(force)[1]) ** 2))
-        row = {"hurst": exponent, "across": across, "number": number, "requested": error, "sampling": curve.sampling}
-        row |= {"tolerance": curve.tolerance, "stated": curve.mean_grid_error, "true": true, "met": bool(true <= error)}
-        rows.append(row | {"out_of_reach": bool(caught), "cost": cost, "seconds": whole})
-    return rows
-
-
-def summary_of_requests(table):
-    """Return the share of met requests and the cost, for each requested error and Hurst exponent, as a table."""
-    groups = [table.assign(hurst="all"), table]
-    grouped = pd.concat(groups).groupby(["requested", "hurst"], sort=False)
-    columns = {"met": ("met", "mean"), "out of reach": ("out_of_reach", "mean"), "median cost": ("cost", "median")}
-    columns |= {"mean cost": ("cost", "mean"), "largest cost": ("cost", "max"), "sampling": ("sampling", "median")}
-    return grouped.agg(**columns).reset_index()
-
-
-# ---- commands
-
-
-@click.group(help=__doc__.splitlines()[0])
-def main():
-    pass
+# ---- command
 
 
 def measured(function, surfaces, first, cores):
@@ -210,42 +161,17 @@ def measured(function, surfaces, first, cores):
         return pd.DataFrame([row for rows in done for row in rows])
 
 
-def report(table, summary, output):
-    click.echo(summary.to_string(index=False, float_format=lambda number: f"{number:.3g}"))
-    save_table(table, output)
-
-
-SHARED = [
-    click.option("--surfaces", type=click.IntRange(1), default=40, show_default=True, help="Number of surfaces."),
-    click.option("--first", type=click.IntRange(0), default=0, show_default=True, help="Number of the first surface."),
-    click.option("--sample", type=click.Choice(SAMPLES), default="test", show_default=True, help="Set of seeds."),
-    click.option("--cores", type=click.IntRange(1), default=1, show_default=True, help="Processes."),
-    output_option,
-]
-
-
-def shared(command):
-    for option in reversed(SHARED):
-        command = option(command)
-    return command
-
-
-@main.command(help="Share of surfaces whose true error is within the stated one.")
-@shared
+@click.command(help=__doc__.splitlines()[0])
+@click.option("--surfaces", type=click.IntRange(1), default=40, show_default=True, help="Number of surfaces.")
+@click.option("--first", type=click.IntRange(0), default=0, show_default=True, help="Number of the first surface.")
+@click.option("--sample", type=click.Choice(SAMPLES), default="test", show_default=True, help="Set of seeds.")
+@click.option("--cores", type=click.IntRange(1), default=1, show_default=True, help="Processes.")
 @click.option("--across", type=int, multiple=True, default=ACROSS, show_default=True, help="Elements across.")
-def coverage(surfaces, first, sample, cores, output, across):
+@output_option
+def main(surfaces, first, sample, cores, across, output):
     table = measured(partial(coverage_of, sample, across), surfaces, first, cores)
-    report(table, summary_of_coverage(table), output)
-
-
-@main.command(help="Error and cost of curves to a requested error.")
-@shared
-@click.option("--across", type=int, default=513, show_default=True, help="Elements across the discs.")
-@click.option("--hurst", type=float, multiple=True, default=HURST, show_default=True, help="Hurst exponents.")
-@click.option("--error", type=float, multiple=True, default=ERRORS, show_default=True, help="Requested errors.")
-def requests(surfaces, first, sample, cores, output, across, hurst, error):
-    table = measured(partial(requests_of, sample, across, hurst, error), surfaces, first, cores)
-    report(table, summary_of_requests(table), output)
+    click.echo(summary_of_coverage(table).to_string(index=False, float_format=lambda number: f"{number:.3g}"))
+    save_table(table, output)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Measurements of the grid error: true errors against their definition, and the tables of both commands."""
+"""Measurements of the grid error: true errors against their definition, and the table of the command."""
 
 import grid_errors
 import numpy as np
@@ -9,9 +9,9 @@ from click.testing import CliRunner
 from viscorough import indent
 
 
-def run(command, path, **options):
+def run(path, **options):
     arguments = [text for name, value in (options | {"output": path}).items() for text in (f"--{name}", str(value))]
-    done = CliRunner().invoke(grid_errors.main, [command, *arguments])
+    done = CliRunner().invoke(grid_errors.main, arguments)
     assert done.exit_code == 0, done.output
     return pd.read_csv(path)
 
@@ -26,7 +26,7 @@ def test_every_fourth_point_of_a_fine_disc_has_the_requested_size(kind):
 
 
 def test_coverage_has_all_kinds_and_true_errors(tmp_path, monkeypatch):
-    table = run("coverage", tmp_path / "coverage.csv", surfaces=12, across=13, cores=1)
+    table = run(tmp_path / "coverage.csv", surfaces=12, across=13, cores=1)
     assert set(table["kind"]) == set(grid_errors.KINDS)
     assert table["number"].nunique() == 12
     row = table[(table["number"] == 4) & (table["x"] == 0.3)].iloc[0]
@@ -37,11 +37,3 @@ def test_coverage_has_all_kinds_and_true_errors(tmp_path, monkeypatch):
     velocity = np.log(truth.at_force(force)[1] / curve.at_force(force)[1])
     assert row["velocity_true"] == pytest.approx(np.sqrt(np.nanmean(velocity**2)), rel=0.05)
     assert row["velocity_stated"] > 0
-
-
-def test_requests_have_a_row_for_each_error(tmp_path):
-    table = run("requests", tmp_path / "requests.csv", surfaces=2, across=65, hurst=0.9, error=0.3)
-    assert table["requested"].tolist() == [0.3, 0.3]
-    assert (table["sampling"] > 1).all()
-    assert table["met"].equals(table["true"] <= 0.3)
-    assert (table["cost"] > 0).all()

@@ -83,7 +83,6 @@ CALLS = {
             {"start_fraction": 0.25, "until_fraction": 0.5, "until_force": (4.0, AREA)},
             indenter=DISC,
         ),
-        call(viscorough.indent, {"error": 0.5}, indenter=DISC),
     ],
     "contact_at": [
         call(viscorough.contact_at, {"depth": (0.5, LENGTH), "tolerance": 0.0625, **OPTIONS}, indenter=DISC),
@@ -153,10 +152,8 @@ CALLS = {
                 "area_change": [-0.5, 0.25],
                 "mean_grid_error": 0.5,
                 "mean_area_change": -0.5,
-                "sampling": 2,
             },
             method="none",
-            choice="none",
         )
     ],
     "Load": [

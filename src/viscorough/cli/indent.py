@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
-from click.core import ParameterSource
 
 import viscorough
 from viscorough.basics.summaries import with_unit
@@ -29,7 +28,6 @@ if TYPE_CHECKING:
 )
 @click.option("--forces", type=options.Increasing("N"), help="Levels at exactly these F/G, or F with a modulus.")
 @options.tolerance
-@click.option("--error", type=options.Share(), help="Error of the velocity that is allowed, as 5%, on few points.")
 @options.grid_error
 @options.until(0.9)
 @click.option("--until-force", type=options.QuantityOption("N"), help="F/G, or F with a modulus, at which to stop.")
@@ -45,7 +43,6 @@ def indent(
     depths: Sequence[Quantity] | None,
     forces: Sequence[Quantity] | None,
     tolerance: float,
-    error: float | None,
     grid_error: bool,
     until_fraction: float,
     until_force: Quantity | None,
@@ -85,12 +82,6 @@ def indent(
     level, and force_grid_error the error of the force at the depth of each level. area_change is the relative change of
     the contact area if the spacing is halved.
 
-    With --error 5% the curve is computed on every n-th point of the map. n and the tolerance are chosen as large as
-    possible, so that the estimated error of the velocity, compared with the curve of all points, is at most 5 %. This
-    error is the root mean square over the forces F/G from h L/25 on (h the rms height, L the diameter of a disc of the
-    same area). A few contacts of all points confirm the estimate; if they do not, more points are used. The closing
-    line states the choice. --until-fraction refers to all points.
-
     Several files of HEIGHTS need a table, -o TABLE.csv. The table has one row for each file and level, with lengths in
     um, areas in um2 and, with a modulus, forces in N, stiffnesses in N/m and pressures in MPa. With --depths or
     --forces it has the same columns as the table of viscorough contact. The help of viscorough contact also explains
@@ -100,17 +91,15 @@ def indent(
     Example:
         viscorough indent heights.npy --spacing 2e-6 --depths 1e-6,2e-6,4e-6 \\
             -o curve.nc
-        viscorough indent heights.npy --spacing 2e-6 --error 5% -o curve.nc
         viscorough indent scan.txt --spacing 0.37,0.5 --unit um --detrend plane \\
             -o curve.nc
         viscorough indent scans/*.txt --forces "1 mN,5 mN" --young "2 MPa" \\
             -o table.csv
     """
-    source = click.get_current_context().get_parameter_source("tolerance")
-    settings: dict[str, Any] = {"depths": depths, "forces": forces, "error": error, "grid_error": grid_error or None}
+    settings: dict[str, Any] = {"depths": depths, "forces": forces, "grid_error": grid_error or None}
     settings |= {"until_fraction": until_fraction, "until_force": until_force}
-    _check_exclusive(settings, has_tolerance=source is not ParameterSource.DEFAULT, audit=audit)
-    settings["tolerance"] = tolerance if error is None else None
+    _check_exclusive(settings, audit=audit)
+    settings["tolerance"] = tolerance
     options.elasticity(length_unit="m", **constants)  # raises an error if these constants contradict each other
     if len(inputs) > 1 and output.suffix.lower() == ".csv":
         options.require(not audit, "--audit is for one file of heights; leave it out, or audit one file at a time")
@@ -133,7 +122,9 @@ def indent(
         else:
             curve = viscorough.indent(indenter, **_arguments(settings), shear_modulus=modulus, **how)
     files.write_output(curve_to_content(curve, modulus), output, **attributes)
-    messages.announce(output, "\n".join([_last_level(curve, indenter, modulus), *lines, *_accuracy(curve)]))
+    messages.announce(
+        output, "\n".join(filter(None, [_last_level(curve, indenter, modulus), *lines, curve.grid_error_text]))
+    )
 
 
 def _audited(indenter: viscorough.Indenter, **how: Any) -> tuple[viscorough.LoadingCurve, list[str]]:
@@ -150,11 +141,10 @@ def _audited(indenter: viscorough.Indenter, **how: Any) -> tuple[viscorough.Load
     return result.curve, lines
 
 
-def _check_exclusive(settings: dict[str, Any], *, has_tolerance: bool, audit: bool) -> None:
+def _check_exclusive(settings: dict[str, Any], *, audit: bool) -> None:
     """Raise UsageError for options that exclude each other.
 
     settings : {name of an option: its value, or None if the option is not given}
-    has_tolerance : True if --tolerance is given
     audit : True if --audit is given
     """
     levels = {"--depths": settings["depths"], "--forces": settings["forces"]}
@@ -164,9 +154,6 @@ def _check_exclusive(settings: dict[str, Any], *, has_tolerance: bool, audit: bo
     if len(stated) > 1:
         exclusive = f"{stated[0]} and {stated[-1]} exclude each other; one of them is allowed"
         options.require(stated[0] not in levels and not audit, exclusive)
-    for name, value in {"--tolerance": has_tolerance or None, **levels, "--audit": audit or None}.items():
-        exclusive = f"--error and {name} exclude each other; one of them is allowed"
-        options.require(settings["error"] is None or value is None, exclusive)
     text = "--grid-error and --audit exclude each other: an audit checks the solution on the grid of the map"
     options.require(not (settings["grid_error"] and audit), text)
 
@@ -176,7 +163,7 @@ def _arguments(settings: dict[str, Any]) -> dict[str, Any]:
 
     settings : {name of an option: its value, or None if the option is not given}
     """
-    given = {name: settings[name] for name in ("depths", "forces", "tolerance", "error")}
+    given = {name: settings[name] for name in ("depths", "forces", "tolerance")}
     given["estimate_grid_error"] = bool(settings["grid_error"])
     fraction, force = settings["until_fraction"], settings["until_force"]
     given["until_force"] = math.inf if force is None else force
@@ -190,15 +177,9 @@ def _last_level(curve: viscorough.LoadingCurve, indenter: viscorough.Indenter, m
     text = f"{curve.depth.size} levels, the last at depth {with_unit(curve.depth[-1], curve.length_unit, 6)}"
     if modulus is not None:
         read, area = result_units(curve.length_unit, modulus), indenter.spacing * indenter.row_spacing
-        area *= curve.sampling**2
         text += f", F {read['force'].text(curve.force[-1], 6)}, k {read['stiffness'].text(curve.stiffness[-1])}"
         text += f", contact area {read['area'].text(curve.contact_count[-1] * area)},"
     return f"{text} with {curve.contact_count[-1]} of {curve.elements} elements in contact"
-
-
-def _accuracy(curve: viscorough.LoadingCurve) -> list[str]:
-    """Return the closing lines about the points chosen for --error and about the grid error, if they were requested."""
-    return list(filter(None, [curve.choice, curve.grid_error_text]))
 
 
 def _rows(

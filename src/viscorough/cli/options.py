@@ -66,19 +66,6 @@ class QuantityOption(click.ParamType):
         raise click.BadParameter(f"{text}{reason}", ctx, param)
 
 
-class Share(click.ParamType):
-    """Type of options: a share, given as a plain number or in percent: 0.05 or 5%."""
-
-    name = "share"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        text = str(value).strip()
-        try:
-            return float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
-        except ValueError:
-            self.fail(f"{value!r} is not a number such as 0.05 or 5%", param, ctx)
-
-
 class Increasing(click.ParamType):
     """Type of options: numbers above 0 separated by commas, each larger than the number before.
 

@@ -52,20 +52,12 @@ def every_nth_point(indenter: Indenter, step: int) -> Indenter:
 
     Raises ValueError if all points of the coarser map are nan, or if it has fewer than two rows or columns.
     """
-    if step == 1:
-        return indenter
     heights = indenter.heights[::step, ::step]
     if min(heights.shape) < 2 or np.isnan(heights).all():
         rows, columns = indenter.heights.shape
-        text = f"every {ordinal(step)} point of a map of {rows} x {columns} points is no map with heights"
+        text = f"every n-th point, n = {step}, of a map of {rows} x {columns} points is no map with heights"
         raise ValueError(f"grid error: {text}; larger maps are needed")
     return Indenter(heights, step * indenter.spacing, step * indenter.row_spacing, indenter.length_unit)
-
-
-def ordinal(number: int) -> str:
-    """Return the ordinal of a number as a text, such as "2nd" or "4th"."""
-    ending = {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th") if number // 10 % 10 != 1 else "th"
-    return f"{number}{ending}"
 
 
 def highest_missed(indenter: Indenter, coarse: Indenter) -> float:

@@ -17,7 +17,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from itertools import accumulate, islice
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -33,7 +32,6 @@ from viscorough.contact.grid_error import every_nth_point, highest_missed, with_
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.prescribed_force import ForceSearch
-from viscorough.contact.sampling import curve_within, part_of
 from viscorough.contact.state import ContactState, DenseContact
 from viscorough.contact.step_control import ContactsAhead, Level, StepControl, division
 from viscorough.results.loading_curve import LoadingCurve
@@ -48,10 +46,6 @@ _APPROACH_SHARE = 0.7
 _APPROACH_MIN_RATIO = 1.02
 # The depth of complete contact is not computed for curves that end at or below this contact fraction.
 _FAR_FROM_COMPLETE = 0.95
-# Tolerance of a curve if the user gives none.
-_DEFAULT_TOLERANCE = 1e-3
-# Smallest and largest relative error of the velocity that can be requested.
-_ERRORS = 1e-3, 0.5
 # If the grid error is estimated, the curve of all points takes about this share of the time, and the curve of every
 # second point takes the rest.
 _SHARE_OF_CURVE = 0.75
@@ -71,8 +65,7 @@ def indent(
     shear_modulus: Scalar | str | None = None,
     young_modulus: Scalar | str | None = None,
     poisson: float | None = None,
-    tolerance: float | None = None,
-    error: float | None = None,
+    tolerance: float = 1e-3,
     estimate_grid_error: bool = False,
     progress: Progress | None = None,
     threads: int = 1,
@@ -100,8 +93,7 @@ def indent(
         few levels, and the error of interpolation between them may exceed the tolerance. Ignored if depths or forces
         are given.
     until_fraction : float, optional
-        Largest contact fraction of the curve, in (0, 1], of all points of the map; ignored if depths or forces are
-        given.
+        Largest contact fraction of the curve, in (0, 1]; ignored if depths or forces are given.
     until_force : float or str, optional
         Largest F/G of the curve [length²]; ignored if depths or forces are given.
     shear_modulus : float or str, optional
@@ -112,22 +104,14 @@ def indent(
     poisson : float, optional
         Poisson ratio ν, above −1 and at most 0.5, with `young_modulus`; by default 0.5.
     tolerance : float, optional
-        Accuracy of every level, between 1e-12 and 0.1; by default 1e-3. It bounds the gap in contact and the overlap
-        outside the contact, each divided by the depth, with rounding included. The relative error of the force is far
-        smaller; the stiffness is less accurate (docs/solver.md). If neither depths nor forces are given, the tolerance
-        (but at least 1e-5) also bounds the relative error of the depth that LoadingCurve.at_force interpolates between
-        levels. The error of the grid is not included and is often larger (see `estimate_grid_error`).
-    error : float, optional
-        Allowed relative error of the velocity, from 1e-3 to 0.5, instead of a tolerance. The curve is computed to a
-        loose tolerance on every n-th point of the map in both directions. The step n is a power of two and is halved
-        until the estimated error is small enough, and the curve agrees with a few contacts of all points. The error is
-        relative to the curve of all points. It is the root mean square over all forces F/G from hL/25 on, with the rms
-        height h of the map and the diameter L of a disc of the same area. The result states the step n as `sampling`,
-        and the reason for it as `choice`. Its contact fractions are those of the used points.
+        Accuracy of every level, between 1e-12 and 0.1. It bounds the gap in contact and the overlap outside the
+        contact, each divided by the depth, with rounding included. The relative error of the force is far smaller; the
+        stiffness is less accurate (docs/solver.md). If neither depths nor forces are given, the tolerance (but at least
+        1e-5) also bounds the relative error of the depth that LoadingCurve.at_force interpolates between levels. The
+        error of the grid is not included and is often larger (see `estimate_grid_error`).
     estimate_grid_error : bool, optional
         Estimate the error due to the spacing of the map from a second curve on every second point; the result contains
-        it as `grid_error`. The second curve takes 0.2 to 0.6 times as long as the first. With `error` the error of the
-        grid is always estimated.
+        it as `grid_error`. The second curve takes 0.2 to 0.6 times as long as the first.
     progress : Progress, optional
         Function that is called after each level with the estimated finished share of the computation, up to 1.
     threads : int, optional
@@ -146,16 +130,14 @@ def indent(
     Raises
     ------
     ValueError
-        For arguments out of range; for `error` together with a tolerance, depths or forces; for maps of fewer than
-        3 x 3 points if the error of the grid is needed.
+        For arguments out of range; for maps of fewer than 3 x 3 points if the error of the grid is needed.
     ConvergenceError
         If a level cannot be solved to the tolerance.
 
     Warns
     -----
     AccuracyWarning
-        If the estimated error exceeds the requested `error` even with all points of the map, or if the depth is larger
-        than the map is wide.
+        If the depth is larger than the map is wide.
 
     Examples
     --------
@@ -164,17 +146,8 @@ def indent(
     >>> curve = viscorough.indent(disc, depths=[0.005, 0.01])
     >>> curve.depth.tolist(), bool(curve.force[0] < curve.force[1])
     ([0.005, 0.01], True)
-
-    Request an error of the velocity of at most 20 %, for which every second point suffices:
-
-    >>> disc = viscorough.self_affine_disc(0.8, 129, rms=0.01, seed=1)
-    >>> viscorough.indent(disc, error=0.2).sampling
-    2
     """
-    error = _check_error(error, tolerance=tolerance, depths=depths, forces=forces)
-    tolerance = check_solvable(
-        "indent", indenter, _DEFAULT_TOLERANCE if tolerance is None else tolerance, threads, options
-    )
+    tolerance = check_solvable("indent", indenter, tolerance, threads, options)
     if depths is not None and forces is not None:
         raise ValueError("indent: depths and forces exclude each other; one of them is allowed")
     start_fraction, until_fraction = _check_fractions(start_fraction, until_fraction)
@@ -190,9 +163,7 @@ def indent(
         options=options,
     )
     progress = progress or (lambda done: None)
-    if error is not None:
-        curve = _curve_within(error, request, indenter, progress)
-    elif estimate_grid_error:
+    if estimate_grid_error:
         curve = _curve_with_grid_errors(request, indenter, tolerance, progress)
     else:
         curve = _curve(request, indenter, tolerance, progress)
@@ -265,45 +236,6 @@ def _check_forces(forces: ArrayLike | None, modulus: float | None, unit: str) ->
     return increasing(argument("forces", of="indent"), numbers, above_zero=True)
 
 
-def _check_error(error: float | None, **others: Any) -> float | None:
-    """Return the requested error as a float, or None if no error is requested.
-
-    others : values of arguments that cannot be combined with a requested error; None for arguments that are not given
-
-    Raises ValueError if the error is out of range, or if it is given together with any of the other arguments.
-    """
-    if error is None:
-        return None
-    error = real_number(argument("error", of="indent"), error)
-    least, largest = _ERRORS
-    if not least <= error <= largest:
-        raise ValueError(
-            f"{argument('error', of='indent')} must be between {least:g} and {largest:g} (5 % is 0.05), not {error!r}"
-        )
-    for name, value in others.items():
-        if value is not None:
-            why = "it chooses the tolerance" if name == "tolerance" else "it holds for a whole curve, which has levels"
-            text = f"{argument('error', of='indent')} and {argument(name)} exclude each other"
-            raise ValueError(f"{text}: {why}")
-    return error
-
-
-def _curve_within(error: float, request: _CurveRequest, indenter: Indenter, progress: Progress) -> LoadingCurve:
-    """Return the LoadingCurve of a map within a requested error of the velocity (see contact.sampling)."""
-
-    def compute(
-        sampled: Indenter, tolerance: float, until_fraction: float, until_force: float, progress: Progress
-    ) -> LoadingCurve:
-        changed = replace(request, until_fraction=until_fraction, until_force=until_force)
-        return _curve(changed, sampled, tolerance, progress)
-
-    def solver(tolerance: float) -> ContactSolver:
-        return ContactSolver(indenter, tolerance, request.options, request.threads, whole=False)
-
-    limits = request.until_fraction, request.until_force
-    return curve_within(error, indenter, *limits, compute=compute, solver=solver, progress=progress)
-
-
 def _curve_with_grid_errors(
     request: _CurveRequest, indenter: Indenter, tolerance: float, progress: Progress
 ) -> LoadingCurve:
@@ -313,6 +245,17 @@ def _curve_with_grid_errors(
     whole = replace(request, depths=None, forces=None, until_fraction=1.0, until_force=curve.force[-1])
     second = _curve(whole, coarse, tolerance, rest)
     return with_grid_errors(curve, second, indenter, highest_missed(indenter, coarse))
+
+
+def part_of(progress: Progress, start: float, end: float) -> Progress:
+    """Return a function that reports the progress of a part of a computation.
+
+    The returned function takes the finished share of the part, from 0 to 1.
+
+    progress : function that takes the finished share of the whole computation
+    start, end : shares of the whole computation that are finished at the start and at the end of the part
+    """
+    return lambda done: progress(float(start + done * (end - start)))
 
 
 def _curve(request: _CurveRequest, indenter: Indenter, tolerance: float, progress: Progress) -> LoadingCurve:

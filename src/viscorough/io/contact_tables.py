@@ -20,9 +20,8 @@ from viscorough.basics import units
 from viscorough.basics.argument_names import argument
 from viscorough.basics.errors import REPORTED, AccuracyWarning, message
 from viscorough.basics.types import Array, FilePath, Progress
-from viscorough.contact.loading_path import indent
+from viscorough.contact.loading_path import indent, part_of
 from viscorough.contact.one_contact import contact_at
-from viscorough.contact.sampling import part_of
 from viscorough.io.atomic import reading
 from viscorough.io.contact_files import NUMBERS, NUMBERS_WITH_MODULUS, PATCHES
 from viscorough.io.curves import ABOUT_GRID, OVER_LEVELS
@@ -143,7 +142,7 @@ def rows_of_curve(curve: LoadingCurve, indenter: Indenter, shear_modulus: float 
     indenter : indenter of the curve, whose spacing gives the contact area
     shear_modulus : G [Pa], or in consistent units if the unit of length is not known; None if it is not given
     """
-    area = curve.contact_count * curve.sampling**2 * indenter.spacing * indenter.row_spacing
+    area = curve.contact_count * indenter.spacing * indenter.row_spacing
     derived = {"contact_area": area, "mean_pressure": curve.force / area}
     values = {name: derived[name] if name in derived else getattr(curve, name) for name in _CURVE_QUANTITIES}
     values |= {name: getattr(curve, name) for name in ABOUT_GRID if getattr(curve, name) is not None}

@@ -52,9 +52,9 @@ PER_CURVE = {
     "method": (str, "how the curve was obtained"),
 }
 # Global attributes that are stored only if they differ from the defaults of LoadingCurve: {name: type}.
-OPTIONAL: dict[str, type] = {"mean_grid_error": float, "mean_area_change": float, "sampling": int, "choice": str}
+OPTIONAL: dict[str, type] = {"mean_grid_error": float, "mean_area_change": float}
 # Least allowed values of attributes in OPTIONAL; the least allowed value of all other attributes is 0.
-OPTIONAL_LEAST = {"mean_area_change": -1.0, "sampling": 1}
+OPTIONAL_LEAST = {"mean_area_change": -1.0}
 
 
 def curve_to_content(curve: LoadingCurve, shear_modulus: float | None = None) -> Content:

@@ -72,11 +72,6 @@ class LoadingCurve(ReadOnlyArrays):
         Means of `grid_error` and `area_change` over all forces F/G above hL/25. Here h is the rms height of the map,
         and L the diameter of a disc with the same area. If the curve ends at F/G < 0.4 hL, the means are over the last
         decade of force.
-    sampling : int
-        Number n if the curve was computed on every n-th point of the map in both directions; 1 for all points. Depths
-        are counted from the highest point of the full map.
-    choice : str
-        Reason for the sampling and the tolerance, if they were chosen to meet a requested error; otherwise "".
 
     Raises
     ------
@@ -109,8 +104,6 @@ class LoadingCurve(ReadOnlyArrays):
     area_change: np.ndarray | None = None
     mean_grid_error: float | None = None
     mean_area_change: float | None = None
-    sampling: int = 1
-    choice: str = ""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -130,8 +123,6 @@ class LoadingCurve(ReadOnlyArrays):
                 raise ValueError(f"loading curve: {name} must be finite and not below {least}")
         if not (self.stiffness > 0).all():
             raise ValueError("loading curve: stiffness must be finite and positive")
-        if self.sampling < 1:
-            raise ValueError("loading curve: sampling must be a whole number from 1 on")
         if self.elements < 1 or not 0 <= self.tolerance < np.inf:
             text = f"{self.elements} elements and a tolerance of {self.tolerance:g}"
             raise ValueError(f"loading curve: {text}; at least 1 and a finite number from 0 on are needed")
@@ -144,7 +135,6 @@ class LoadingCurve(ReadOnlyArrays):
             f"depth u {span(self.depth, unit)}, force F/G {span(self.force, unit_power(unit, 2))}, "
             f"stiffness k/G {span(self.stiffness, unit)}",
             f"contact fraction {span(self.contact_fraction)}",
-            self.choice,
             self.grid_error_text,
         ]
         return "\n".join(filter(None, lines))
@@ -159,9 +149,8 @@ class LoadingCurve(ReadOnlyArrays):
         """Return a line of text that states and explains the error of the grid, or "" if it was not estimated."""
         if self.mean_grid_error is None or self.mean_area_change is None:
             return ""
-        grid = "a scan" if self.sampling == 1 else "a sampling"
         return (
-            f"grid error about {100 * self.mean_grid_error:.2g} %: {grid} twice as fine would change the velocity by "
+            f"grid error about {100 * self.mean_grid_error:.2g} %: a scan twice as fine would change the velocity by "
             f"about that; the contact area changes by {100 * self.mean_area_change:.2g} % when the spacing is halved"
         )
 

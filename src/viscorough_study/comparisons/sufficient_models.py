@@ -7,7 +7,7 @@ full map, the map of all points. The error of the full map itself is the error t
 
 import pandas as pd
 
-from viscorough_study.run.names import CONTACT, GRID, LAW, MDR, MDR_FITTED, MDR_PI, PAPER, REQUEST
+from viscorough_study.run.names import CONTACT, GRID, LAW, MDR, MDR_FITTED, MDR_PI, PAPER
 from viscorough_study.run.readable import readable
 
 # Each question is a tuple: text, name of the table with the models' errors, quantity in this table, and allowed
@@ -18,7 +18,6 @@ QUESTIONS = (
     ("velocity of one surface", "one", "velocity", (0.2, 0.1, 0.03, 0.01)),
     ("contact area of one surface", "one", "contact area", (0.1,)),
     ("pressures of one surface, on its grid", "one", "pressures", (0.01,)),
-    ("medium from a creep test on one surface", "one", "creep compliance", (0.05,)),
 )
 COLUMNS = {
     "question": ("question", ""),
@@ -73,8 +72,6 @@ def _judged_by_itself(table):
 def _over_hurst(table):
     """Return the models that were measured at all Hurst exponents, each with its largest error and its largest time."""
     keys = ["model", "across", "parameter", "value"] if "parameter" in table else ["model", "across", "surfaces"]
-    if "parameter" in table:
-        table = table.assign(across=table["across"].where(table["model"] != REQUEST))
     every = sorted(table["hurst"].unique())
     largest = {"error": ("error", "max"), "processor_s": ("processor_s", "max"), "number": ("hurst", "nunique")}
     grouped = table.groupby(keys, sort=False, dropna=False).agg(**largest).reset_index()
@@ -91,8 +88,6 @@ def _names(row):
         return "H/(1 + H)", ""
     if model == LAW:
         return "viscorough.penetration_law", ""
-    if model == REQUEST:
-        return "viscorough.indent", f"error={row['value']:g}"
     if model == CONTACT:
         return "viscorough.contact_at", f"{size} points, tolerance={row['value']:g}"
     if model == MDR:

@@ -4,7 +4,7 @@ import numpy as np
 
 from viscorough_study.comparisons.mean_of_surfaces import X
 from viscorough_study.figures import style
-from viscorough_study.run.names import GRID, LAW, MDR, MDR_FITTED, MDR_PI, REQUEST
+from viscorough_study.run.names import GRID, LAW, MDR, MDR_FITTED, MDR_PI
 from viscorough_study.run.readable import readable
 
 ERRORS = (0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # ticks of the axes of errors in (a) to (c)
@@ -131,18 +131,13 @@ def _draw_one_surface(axes, rows):
         for (across, curve), color in zip(grids.groupby("across"), GRIDS, strict=False)
     ]
     ends.append(_draw_curve(axes, rows[rows["model"] == MDR], "v-", style.GREY, "MDR"))
-    shown = rows[(rows["across"] != full) | (rows["model"] == REQUEST)]
+    shown = rows[rows["across"] != full]
     _lines_of_equal_error(axes, ERRORS, _limits(shown))
     low, high = shown[shown["processor_s"] > 0]["processor_s"].agg(["min", "max"])
     axes.set_xlim(low / 12, high * 20)
     _label_ends(axes, ends)
-    requests = rows[rows["model"] == REQUEST]
-    axes.plot("processor_s", "error", "x", data=requests, color=style.BLACK, markersize=7, markeredgewidth=1.6)
-    for row in requests.itertuples():
-        text, where = f"request {100 * row.value:g} %", {"textcoords": "offset points", "va": "center"}
-        axes.annotate(text, (row.processor_s, row.error), (6, 0), **where)
     _draw_law(axes, rows[rows["model"] == LAW], above=True)  # below, the label could meet the label of a coarse grid
-    _say(axes, "along a curve: finer tolerances\n× request of an error")
+    _say(axes, "along a curve: finer tolerances")
 
 
 def _last_decade(fine):

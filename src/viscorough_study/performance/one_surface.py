@@ -1,35 +1,30 @@
 """Measure error and computing time of every method that predicts the contact of one rough surface.
 
-A method is called a model here. The models are boundary elements on several grids and with several tolerances, boundary
-elements with a requested error (`indent` then chooses the grid), the method of dimensionality reduction (MDR), and the
-calibrated penetration law of the library. The law has no error for a Hurst exponent or X outside its calibration.
+A method is called a model here. The models are boundary elements on several grids and with several tolerances, the
+method of dimensionality reduction (MDR), and the calibrated penetration law of the library. The law has no error for a
+Hurst exponent or X outside its calibration.
 
 The error of a model is its deviation from the full map, the map of all points of the same surface. The error of the
 velocity v is the root mean square of ln(v/v_full) at X = F/(4GhL) from 0.01 to 3, uniform in ln X, and over several
-surfaces. The errors of the contact area, and of the creep compliance that follows from a record of the depth, are
-defined in the same way. The error of pressures is only the error of the solver on a given grid, because pressures of a
-self-affine surface have no limit as the grid becomes finer.
+surfaces. The error of the contact area is defined in the same way. The error of pressures is only the error of the
+solver on a given grid, because pressures of a self-affine surface have no limit as the grid becomes finer.
 """
 
 import logging
-import warnings
 
 import numpy as np
 import pandas as pd
 from threadpoolctl import threadpool_limits
 
-from viscorough.basics.errors import AccuracyWarning
 from viscorough.contact.grid_error import every_nth_point
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
 from viscorough.law.calibrated_law import law_covers, penetration_law
 from viscorough.mdr import reduce
-from viscorough.media.kinds import StandardLinearSolid
 from viscorough.surfaces.self_affine import self_affine_disc, self_affine_line
-from viscorough.viscous.kinetics import kinetics
 from viscorough_study.performance import timing
 from viscorough_study.run.kernels import compile_kernels
-from viscorough_study.run.names import CONTACT, GRID, LAW, MDR, REQUEST
+from viscorough_study.run.names import CONTACT, GRID, LAW, MDR
 from viscorough_study.run.seeds import one_surface_key, realization_seed
 
 X = (0.01, 3.0)
@@ -38,18 +33,15 @@ STEPS = (16, 8, 4, 2)  # coarser grids consist of every n-th point of the full m
 FEWEST_ACROSS = 17  # grids with fewer points across are not used
 TOLERANCES = (1e-1, 1e-2, 1e-3)
 FULL_TOLERANCE = 1e-3  # tolerance of the loading curve of the full map, the map of all points
-REQUESTS = (0.2, 0.1, 0.05)
 POINTS = tuple(2**n for n in (8, 11, 14, 17))
 # Pressures are compared at X = CONTACT_X, on the grid of every second point (CONTACT_STEP). The reference pressures
 # are computed with the tolerance EXACT_TOLERANCE.
 CONTACT_X, CONTACT_STEP, CONTACT_TOLERANCES, EXACT_TOLERANCE = 0.1, 2, (1e-1, 1e-2, 1e-3), 1e-8
 SHORT, REPEATS = 0.1, 2  # a computation of less than SHORT seconds is repeated REPEATS times
-# Medium and times of the creep test: a constant force on a solid whose modulus relaxes by a factor of 100 (h = L = 1).
-SOLID, TIMES = StandardLinearSolid(100.0, 1.0, 1.0), np.geomspace(1e-2, 1e3, 60)
 COLUMNS = {
     "hurst": ("Hurst exponent", "1"),
-    "quantity": ("velocity, contact area, pressures, or creep compliance", ""),
-    "model": ("grid, requested error, MDR, law, or one contact", ""),
+    "quantity": ("velocity, contact area, or pressures", ""),
+    "model": ("grid, MDR, law, or one contact", ""),
     "across": ("points across the map that is used; missing without a map", "1"),
     "parameter": ("parameter of the model", ""),
     "value": ("value of that parameter", "1"),
@@ -89,12 +81,8 @@ def averaged(table):
     Errors are averaged by the root mean square, times by the median, and stated errors by the arithmetic mean.
     """
     table = table.assign(square=table["error"] ** 2)
-    # If an error is requested, `indent` chooses a grid for each surface, so the grids of several surfaces may differ.
-    # Rows with the same requested error are averaged nevertheless.
-    grids = table["across"].where(table["model"] != REQUEST)
-    means = {"processor_s": "median", "square": "mean", "stated": "mean", "across": "median", "surface": "nunique"}
-    labels = [name for name in LABELS if name != "across"]
-    grouped = table.assign(grid=grids).groupby([*labels, "grid"], sort=False, dropna=False)
+    means = {"processor_s": "median", "square": "mean", "stated": "mean", "surface": "nunique"}
+    grouped = table.groupby(LABELS, sort=False, dropna=False)
     result = grouped.agg(means).reset_index().rename(columns={"surface": "surfaces"})
     return result.assign(error=np.sqrt(result["square"]))[list(COLUMNS)]
 
@@ -110,15 +98,12 @@ def surface_rows(hurst, elements, seed):
     force = 4 * x
     until = {"until_fraction": 1.0, "until_force": 4 * X[1] * (1 + 1e-9)}
     full, full_time = _timed(lambda: indent(disc, tolerance=FULL_TOLERANCE, estimate_grid_error=True, **until))
-    record = kinetics(full, force[-1] * SOLID.relaxed_modulus, SOLID, TIMES)
     truth = _answers(full, force, disc)
 
     def rows(curve, seconds, model, across, parameter, value, stated=np.nan):
         shared = {"model": model, "across": across, "parameter": parameter, "value": value, "processor_s": seconds}
         answers = _answers(curve, force, disc)
         errors = {name: _deviation(answers[name], truth[name]) for name in truth}
-        if model == REQUEST:
-            errors["creep compliance"] = _compliance_error(curve, record, force[-1] * SOLID.relaxed_modulus)
         return [shared | {"quantity": name, "error": error, "stated": stated} for name, error in errors.items()]
 
     table = rows(full, full_time, GRID, elements, "tolerance", FULL_TOLERANCE, full.mean_grid_error)
@@ -130,12 +115,6 @@ def surface_rows(hurst, elements, seed):
         for tolerance in TOLERANCES:
             curve, seconds = _timed(lambda: indent(sampled, tolerance=tolerance, **until))  # noqa: B023
             table += rows(curve, seconds, GRID, across, "tolerance", tolerance)
-    for error in REQUESTS:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", AccuracyWarning)  # a stated error above the request is expected
-            curve, seconds = _timed(lambda: indent(disc, error=error, **until))  # noqa: B023
-        across = len(disc.heights[:: curve.sampling])
-        table += rows(curve, seconds, REQUEST, across, "error", error, curve.mean_grid_error)
     velocity_row = {"quantity": "velocity", "across": np.nan, "stated": np.nan}
     for points in POINTS:
         velocity, seconds = _timed(lambda: _reduced_velocity(hurst, points, force, line_seed))  # noqa: B023
@@ -169,18 +148,6 @@ def _answers(curve, force, disc):
 
 def _deviation(values, truth):
     return float(np.sqrt(np.mean(np.log(values / truth) ** 2)))
-
-
-def _compliance_error(curve, record, force):
-    """Compute the creep compliance from recorded depths and a loading curve; return the error of the compliance.
-
-    At each time, the elastic force F/G at the recorded depth is the creep compliance times the force.
-
-    record : motion with the depths under the constant force `force`
-    """
-    reached = record.depth <= curve.depth[-1]
-    elastic_force, _ = curve.at_depth(record.depth[reached])
-    return _deviation(elastic_force / force, SOLID.creep_compliance(record.time[reached]))
 
 
 def _reduced_velocity(hurst, points, force, seed):

@@ -2,7 +2,7 @@
 
 # Names of models, which are numerical methods or formulas. A model predicts the contact of a single surface, the mean
 # over many surfaces, or both.
-GRID, REQUEST, CONTACT, LAW, PAPER = "grid", "requested error", "one contact", "law", "H/(1 + H)"
+GRID, CONTACT, LAW, PAPER = "grid", "one contact", "law", "H/(1 + H)"
 MDR, MDR_PI, MDR_FITTED = "MDR", "MDR, λ = π", "MDR, λ fitted"
 # Names of methods that choose the depths (levels) at which a loading curve is computed.
 AUTOMATIC, BY_HAND, NAIVE = "automatic", "best by hand", "naive"

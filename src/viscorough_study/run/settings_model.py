@@ -427,7 +427,7 @@ class OneSurface(Section):
     """Surfaces on which all models of a single surface are compared."""
 
     hurst: several(HURST, 2, 4, once=True) = meaning(
-        "Hurst exponents of the surfaces on which grids, requested errors, the MDR and the law are measured; the law "
+        "Hurst exponents of the surfaces on which grids, the MDR and the law are measured; the law "
         "is left out where it is not calibrated"
     )
     elements: whole(65, 2049) = meaning(

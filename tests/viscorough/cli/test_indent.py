@@ -1,6 +1,5 @@
-"""Loading curves with the error of the grid, and to a requested error, on the command line."""
+"""Loading curves with the error of the grid on the command line."""
 
-import numpy as np
 import pandas as pd
 import pytest
 
@@ -48,28 +47,6 @@ def test_kinetics_states_the_grid_error_of_the_force_at_the_largest_depth(disc, 
     expected = curve.force_grid_error[level]
     assert f"grid error of the force about {100 * expected:.2g} %" in capsys.readouterr().out
     assert netcdf.read("motion.nc").attributes["force_grid_error"] == pytest.approx(expected)
-
-
-@pytest.mark.parametrize("error", ["20%", "20 %", "0.2"])
-def test_requested_error_states_the_chosen_points(disc, capsys, error):
-    assert run(f"indent disc.nc --error '{error}' -o curve.nc") == 0
-    expected, written = indent(disc, error=0.2), load_curve("curve.nc")
-    assert written == expected
-    assert expected.choice in capsys.readouterr().out.splitlines()
-
-
-def test_table_has_grid_errors_and_areas_of_the_chosen_points(disc):
-    """With every n-th point, the area of an element is n² times as large."""
-    viscorough.save(self_affine_disc(0.9, 129, rms=0.01, length_unit="um", seed=2), "other.nc")
-    assert run("indent disc.nc other.nc --error 20% -o table.csv") == 0
-    table, _ = read_table("table.csv")
-    for name in ("disc.nc", "other.nc"):
-        indenter, rows = read_heights(name), table[table["file"] == name]
-        curve = indent(indenter, error=0.2)
-        np.testing.assert_allclose(rows["grid_error"], curve.grid_error, rtol=1e-9)
-        area = curve.contact_fraction * curve.elements * (curve.sampling * indenter.spacing) ** 2
-        np.testing.assert_allclose(rows["contact_area"], area, rtol=1e-9)
-    assert curve.sampling > 1
 
 
 def test_table_at_given_loads_is_that_of_the_command_contact(disc):

@@ -57,8 +57,6 @@ ABOUT_GRID = {
     "area_change": [-0.5, 0.1],
     "mean_grid_error": 1 / 3,
     "mean_area_change": -1 / 7,
-    "sampling": 4,
-    "choice": "every 4th point, for a reason",
 }
 
 
@@ -148,10 +146,8 @@ def test_impossible_curves_are_refused(change, what):
         (entry("force_grid_error", 0, np.nan), "loading curve: force_grid_error must be finite"),
         (entry("area_change", 0, -1.5), "loading curve: area_change must be finite and not below -1"),
         (units(grid_error="m"), "grid_error is in 'm'"),
-        *[(attribute("sampling", value), "sampling is .*; a whole number from 1 on") for value in (0, 1.5, "2")],
         (attribute("mean_grid_error", -0.1), "mean_grid_error is -0.1; a number from 0 on is needed"),
         (attribute("mean_area_change", -2.0), "mean_area_change is -2.0; a number from -1 on is needed"),
-        (attribute("choice", 3), "choice is 3; text is needed"),
     ],
 )
 def test_impossible_grid_errors_are_refused(change, what):

@@ -17,8 +17,6 @@ def grids(*, coarse=(0.15, 0.25)):
     rows = [(0.4, "grid", 33, "tolerance", 0.1, 0.01, coarse[0], np.nan)]
     rows += [(0.8, "grid", 33, "tolerance", 0.1, 0.02, coarse[1], np.nan)]
     rows += [(hurst, "grid", 129, "tolerance", 0.1, 0.1, 0.06, np.nan) for hurst in (0.4, 0.8)]
-    rows += [(0.4, "requested error", 65, "error", 0.2, 0.05, 0.12, 0.15)]
-    rows += [(0.8, "requested error", 33, "error", 0.2, 0.04, 0.05, 0.15)]
     rows += [(0.4, "MDR", np.nan, "points", 256, 0.001, 0.1, np.nan)]  # not measured at 0.8
     rows += [(hurst, "law", np.nan, np.nan, np.nan, 0.0, 0.21, np.nan) for hurst in (0.4, 0.8)]
     return one_surface(full + rows)
@@ -34,8 +32,8 @@ def chosen(table):
 
 def test_the_worst_hurst_exponent_decides_on_error_and_time():
     rows = chosen(grids())
-    assert rows.loc[0.2, ["model", "setting"]].tolist() == ["viscorough.indent", "error=0.2"]
-    assert rows.loc[0.2, ["error", "processor_s"]].tolist() == [0.12, 0.05]
+    assert rows.loc[0.2, ["model", "setting"]].tolist() == ["viscorough.indent", "129 × 129 points, tolerance=0.1"]
+    assert rows.loc[0.2, ["error", "processor_s"]].tolist() == [0.06, 0.1]
     rows = chosen(grids(coarse=(0.15, 0.19)))
     assert rows.loc[0.2, "setting"] == "33 × 33 points, tolerance=0.1"
     assert rows.loc[0.2, "hurst"] == "0.4, 0.8"

@@ -115,13 +115,11 @@ def test_figures_show_the_numbers_of_their_tables(drawn, scaling):
         assert near.all(), (figure, panel, expected[~near])
 
 
-def test_speed_has_a_curve_for_each_grid_and_a_cross_for_each_request(drawn):
+def test_speed_has_a_curve_for_each_grid(drawn):
     surfaces, means, *_ = tables.FROM_TABLES["speed"]
     velocity = surfaces.query("quantity == 'velocity'")
     for axes, (hurst, rows) in zip(drawn["speed"].axes, velocity.groupby("hurst"), strict=False):
         assert f"$H$ = {hurst:g}" in axes.get_title()
-        (crosses,) = [line for line in axes.lines if line.get_marker() == "x"]
-        close(crosses.get_xydata(), rows.query("model == 'requested error'")[["processor_s", "error"]])
         curves = [line.get_xydata() for line in axes.lines if line.get_marker() == "o"]
         grids = rows.query("model == 'grid' and across < across.max()").groupby("across")
         for curve, (_, grid) in zip(curves, grids, strict=True):

@@ -17,7 +17,7 @@ def test_every_model_is_measured_on_every_surface(table):
     assert list(table.columns) == list(one_surface.COLUMNS)
     assert (table["surfaces"] == 2).all()
     velocity = table.query("quantity == 'velocity'")
-    models = {"grid": 1 + 2 * 3, "requested error": 3, "MDR": 4, "law": 1}  # the full map, and two coarser grids
+    models = {"grid": 1 + 2 * 3, "MDR": 4, "law": 1}  # the full map, and two coarser grids
     for _, rows in velocity.groupby("hurst"):
         assert rows["model"].value_counts().to_dict() == models
     assert (table.query("model != 'law'")["processor_s"] > 0).all()
@@ -46,17 +46,11 @@ def test_pressures_have_the_error_of_the_tolerance_on_a_map_too_large_for_dense_
     assert 0.3 > errors[1e-1] > errors[1e-2] > errors[1e-3] > 1e-6
 
 
-def test_compliance_is_that_of_curves_to_a_requested_error(table):
-    compliance = table.query("quantity == 'creep compliance'")
-    assert set(compliance["model"]) == {"requested error"}
-    assert ((compliance["error"] > 0) & (compliance["error"] < 1)).all()
-
-
 def test_averages_are_root_mean_squares_and_medians():
-    shared = {"hurst": 0.4, "quantity": "velocity", "parameter": "error", "value": 0.1, "model": "requested error"}
-    rows = [(0, 33, 1.0, 0.03, 0.1), (1, 17, 2.0, 0.04, 0.2), (2, 33, 6.0, 0.0, 0.3)]
-    columns = ["surface", "across", "processor_s", "error", "stated"]
-    (row,) = one_surface.averaged(pd.DataFrame(rows, columns=columns).assign(**shared)).to_dict("records")
+    shared = {"hurst": 0.4, "quantity": "velocity", "parameter": "tolerance", "value": 0.1, "model": "grid"}
+    rows = [(0, 1.0, 0.03, 0.1), (1, 2.0, 0.04, 0.2), (2, 6.0, 0.0, 0.3)]
+    columns = ["surface", "processor_s", "error", "stated"]
+    (row,) = one_surface.averaged(pd.DataFrame(rows, columns=columns).assign(across=33, **shared)).to_dict("records")
     assert (row["across"], row["processor_s"], row["surfaces"]) == (33, 2.0, 3)
     assert row["error"] == pytest.approx(np.sqrt((0.03**2 + 0.04**2) / 3))
     assert row["stated"] == pytest.approx(0.2)

@@ -13,7 +13,8 @@ from support.media import MEDIA, TABLE_TIMES
 from viscorough import Load, Maxwell, Springpot, indent, kinetics, reference, self_affine_disc
 
 RADIUS, VISCOSITY, FORCE = 1.7, 30.0, 0.03
-CURVE = curve_of_body(reference.sphere(RADIUS), np.geomspace(1e-6, 10, 71))
+SPHERE = reference.sphere(RADIUS)
+CURVE = curve_of_body(SPHERE, np.geomspace(1e-6, 10, 71))
 
 
 def depth_of_sphere(creep):
@@ -121,6 +122,21 @@ def test_history_with_a_step_is_evaluated_at_other_times(name):
     assert whole.depth[2] == pytest.approx(result.depth[2], rel=1e-14)
     assert whole.depth[1] <= whole.depth[2]
     assert whole.depth[0] == 0
+
+
+@pytest.mark.parametrize("name", MEDIA)
+def test_velocity_just_after_a_kink_or_a_step_follows_the_creep(name):
+    """dΦ/dt is Σ ΔF J'(t − s) over the steps and Σ ΔF' J(t − s) over the kinks, just after each sample."""
+    medium = MEDIA[name]
+    load = Load([0.0, 1.0, 2.0, 2.0, 3.0, 4.0], force=[0.0, 0.02, 0.03, 0.04, 0.04, 0.07])
+    starts, kinks = np.array([0.0, 1.0, 2.0, 3.0]), np.array([0.02, -0.01, -0.01, 0.03])
+    motion = kinetics(CURVE, load, medium)
+    at = load.time[[1, 3, 4]]  # just after the first kink, the step, and the hold
+    since = at[:, None] - starts
+    rate = np.where(since >= 0, medium.creep_compliance(np.maximum(since, 0.0)), 0.0) @ kinks
+    rate += np.where(at >= 2, 0.01 * medium.creep_rate(np.maximum(at - 2, 0.0)), 0.0)
+    expected = rate / SPHERE.stiffness(motion.depth[[1, 3, 4]])
+    np.testing.assert_allclose(motion.velocity[[1, 3, 4]], expected, rtol=accuracy(name, 1e-9))
 
 
 @pytest.mark.parametrize("name", MEDIA)

@@ -6,7 +6,8 @@ from scipy.optimize import brentq
 
 from support.media import SPRINGS_AND_DASHPOTS
 from support.small_motion import SpringsAndDashpots, row_of_springs, small_motion
-from viscorough import Springpot
+from viscorough import Load, Springpot
+from viscorough.media.creep_response import creep_response
 from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Prony, StandardLinearSolid
 from viscorough.media.spectra import power_law_spectrum, relaxation_spectrum, spectrum_of
 from viscorough.viscous.crossing import INTERVALS, first_crossing
@@ -144,6 +145,39 @@ def test_motion_does_not_depend_on_samples_of_a_linear_history(number):
         np.testing.assert_allclose(
             getattr(again, name)[place], values, rtol=0, atol=1e-11 * max(np.abs(values).max(), 1e-300), err_msg=name
         )
+
+
+@pytest.mark.parametrize("number", range(40))
+def test_values_at_a_sample_are_the_limits_just_after_it(number):
+    """Just after the sample the velocity is also the slope of the depth. A step gives the values before it first."""
+    *row, times, load, by_depth = random_case(number)
+    motion = moved(*row, times, load, by_depth=by_depth)
+    ramps = np.flatnonzero(np.diff(times) > 0)
+    delay = 1e-9 * np.diff(times)[ramps]
+    fine_times = np.insert(times, ramps + 1, times[ramps] + delay)
+    fine_load = np.insert(load, ramps + 1, load[ramps] + 1e-9 * np.diff(load)[ramps])
+    after = ramps + 1 + np.arange(ramps.size)
+    again = moved(*row, fine_times, fine_load, by_depth=by_depth)
+    for name in ("depth", "force", "velocity") + (() if by_depth else ("deflection",)):
+        at, later = getattr(motion, name)[ramps], getattr(again, name)
+        np.testing.assert_allclose(at, later[after], rtol=0, atol=1e-4 * np.abs(later).max(), err_msg=name)
+    if not by_depth:
+        for name in ("in_contact", "largest"):
+            np.testing.assert_array_equal(getattr(motion, name)[ramps], getattr(again, name)[after], err_msg=name)
+    slope = (again.depth[after] - motion.depth[ramps]) / delay
+    np.testing.assert_allclose(motion.velocity[ramps], slope, rtol=0, atol=1e-4 * np.abs(slope).max())
+
+
+@pytest.mark.parametrize("duration", [1.0, 1e4])
+@pytest.mark.parametrize("number", range(0, 40, 2))
+def test_deflections_add_up_to_the_creep_response_in_the_largest_contact(number, duration):
+    """After a long hold a fluid carries the same pressure everywhere, so all springs touch at once in a reload."""
+    gaps, weights, medium, times, force, _ = random_case(number)
+    load = Load(duration * times, force=force)
+    motion = moved(gaps, weights, medium, load.time, load.values, by_depth=False)
+    creep = creep_response(spectrum_of(medium.relaxation, medium.retardation), load)
+    largest = motion.largest
+    np.testing.assert_allclose(motion.deflection[largest], creep[largest], rtol=0, atol=1e-10 * creep.max())
 
 
 @pytest.mark.parametrize("number", range(40))

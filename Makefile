@@ -40,7 +40,7 @@ endif
 MOVED := $(if $(wildcard .venv/lock-installed),$(shell grep -qsF "$$(pwd -P)/.venv/bin/python" .venv/bin/pip || echo moved))
 
 .PHONY: help environment environment-dev environment-slurm reproduce paper report check lint ready-to-test test test-all docs test-slurm bench \
-	speed stability sizes law law-errors intervals large first-minutes outside fuzz faults seeds publish dist peers lock lock-dev lock-peers lock-slurm clean
+	speed stability sizes law law-errors intervals large publish peers lock lock-dev lock-peers lock-slurm clean
 
 help:
 	@echo "make reproduce     the default reproduction, with the page results/index.html"
@@ -53,12 +53,9 @@ help:
 	@echo "make docs          the documentation as a website, in build/docs/index.html"
 	@echo "make clean         remove results and caches, keep the environment"
 	@echo "Before a release:"
-	@echo "make bench | large | first-minutes  cost of curves, of large maps, and from clone to page"
-	@echo "make outside       our values beside numbers that others published"
-	@echo "make fuzz | faults random files and options; random changes of the sources"
-	@echo "make seeds         the reproduction with three root seeds"
+	@echo "make bench | large cost of curves and of large maps"
 	@echo "make law | law-errors               calibration of the law of the interface"
-	@echo "make dist | test-slurm              the wheel in an empty environment; the workflow through Slurm"
+	@echo "make test-slurm    the workflow through Slurm"
 	@echo "make publish       verdicts and numbers from results/ into README.md, docs/ and the package"
 	@echo "make peers | lock  environments of other solvers; renew the lock files"
 	@echo "Variables: CORES=$(CORES), PYTHON=$(PYTHON); SETTINGS=mine.yaml for reproduce, report, speed, stability, sizes."
@@ -166,24 +163,6 @@ law-errors: environment
 
 large: environment
 	$(BIN)/python benchmarks/large_discs.py --cores $(CORES) --output results/tables/large.csv
-
-first-minutes: environment
-	$(BIN)/python benchmarks/first_minutes.py --cores $(CORES) --output results/first_minutes.csv
-
-dist: environment
-	$(BIN)/python benchmarks/distribution.py --output build/dist
-
-outside: environment
-	$(BIN)/python benchmarks/outside.py --output results/outside.csv
-
-fuzz: environment-dev
-	$(BIN)/python benchmarks/fuzz.py --runs 10000 --output results/fuzz.json
-
-faults: environment-dev
-	$(BIN)/python benchmarks/mutants.py --cores $(CORES) --output results/mutants.json
-
-seeds: environment
-	$(BIN)/python benchmarks/seeds.py --cores $(CORES) --output results/seeds.csv
 
 publish: environment
 	$(BIN)/python benchmarks/publish.py --command paper

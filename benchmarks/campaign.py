@@ -7,8 +7,7 @@ influence matrix; whole loading curves, at their levels and between them; curves
 given forces, also with the methods for large maps. Curves of a further family are checked by the two integrals that
 linear solutions give (viscorough.contact.sum_rules). Whole curves of ordinary discs are checked by the depth of
 complete contact: 257 elements across at a tolerance of 1e-2, and 65 or 129 across at random tolerances from 1e-1 to
-1e-5. Random histories of force and depth in all kinds of media are checked by inequalities that hold for every history.
-`make stability` runs it. A failure is printed with the command that repeats it.
+1e-5. `make stability` runs it. A failure is printed with the command that repeats it.
 """
 
 from dataclasses import replace
@@ -30,7 +29,6 @@ from random_curves import (
     random_whole_curve,
     whole_curve_failure,
 )
-from random_motions import motion_failure, random_motion
 from tqdm import tqdm
 
 from viscorough.contact.halfspace import tiles
@@ -66,7 +64,6 @@ FAMILIES = {
         whole_curve_failure,
         5 / 12,
     ),
-    "histories": (random_motion, motion_failure, 5 / 6),
 }
 
 

@@ -153,7 +153,7 @@ def other_runs(table):
     opposed = [f"{claim}, {case}" for claim, case in opposed_cases([table, *runs])]
     return (
         f"With the paper's own number of discs, 2880 (`make reproduce`, `{DEFAULT_CLAIMS}`), and also with "
-        f"{len(with_seeds)} other root seeds (`make seeds`, [seeds.csv](seeds.csv)), the verdicts are the same, but "
+        f"{len(with_seeds)} other root seeds ([seeds.csv](seeds.csv)), the verdicts are the same, but "
         f"for: {'; '.join(differ) or 'none'}. Cases that are reproduced in one of these runs and not reproduced in "
         f"another: {'; '.join(opposed) or 'none'}."
     )

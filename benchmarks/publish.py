@@ -5,10 +5,9 @@
 Every command (`make paper`, `make speed`, ...) has its own figures and tables, which are copied into docs/results/ with
 their origin. Name the commands whose results are in the folder: some of the files also exist at a smaller scale.
 `paper` includes the verdicts and the calibrated power law, `law` the law of the interface, and `law-errors` its errors
-and the intervals of single surfaces. `reproduce` includes the verdicts and the cost of the default run,
-`first-minutes` the time from the clone to the page. `seeds` includes the dependence of the verdicts on the seed, which
-draws the surfaces. Then the numbers and tables in README.md and docs/ are written (benchmarks/pages.py); with
-`--pages-only` nothing else is done. The workflow writes only into results/.
+and the intervals of single surfaces. `reproduce` includes the verdicts and the cost of the default run. Then the
+numbers and tables in README.md and docs/ are written (benchmarks/pages.py); with `--pages-only` nothing else is done.
+The workflow writes only into results/.
 """
 
 import io
@@ -22,7 +21,7 @@ import click
 import pages
 import pandas as pd
 from measuring import write_json
-from pages import DEFAULT_CLAIMS, DEFAULT_COSTS, FIRST_MINUTES, OTHER_SOLVERS, ROOT
+from pages import DEFAULT_CLAIMS, DEFAULT_COSTS, OTHER_SOLVERS, ROOT
 from PIL import Image  # matplotlib depends on it
 
 from viscorough_study.performance import timing
@@ -51,12 +50,9 @@ PUBLISHED = {
     "sizes": _made("sizes local_exponent", "sizes fine_exponents fine_velocities fine_costs"),
     "large": _made(tables="large"),
     "bench": ["benchmarks.json"],
-    "outside": ["outside.csv"],
     "law": _made(tables="law"),
     "law-errors": _made(tables="law_errors"),
     "reproduce": [],
-    "first-minutes": [],
-    "seeds": [],
 }
 # {command: {file in results/ that other parts of the project read: its place there}}
 KEPT = {
@@ -70,8 +66,6 @@ KEPT = {
         "tables/rule_costs.csv": DEFAULT_COSTS,
         "tables/claims.csv": DEFAULT_CLAIMS,
     },
-    "first-minutes": {"first_minutes.csv": FIRST_MINUTES},
-    "seeds": {"seeds.csv": "docs/seeds.csv"},
 }
 
 

@@ -22,12 +22,26 @@ from pathlib import Path
 
 import click
 import psutil
-from measured_times import holds_times
 from measuring import output_option, save
-from project_copy import copy_project, environment
 
 SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2", "--nocolor", "--configfile", "config/test.yaml"]
 HANGS = 3600  # seconds after which a run counts as hanging, even on a busy machine
+ROOT = Path(__file__).resolve().parents[1]
+# Of the folders called results, only the results of runs are left out of a copy of the project.
+NOT_COPIED = shutil.ignore_patterns(".git", ".venv*", ".snakemake", ".pytest_cache", ".hypothesis")
+# Files in results/ that hold measured times differ from run to run: all files of these folders, and tables and figures
+# of these names with any suffix.
+TIMED_FOLDERS = {"logs", "benchmarks"}
+TIMED = {
+    "methods",
+    "one_surface",
+    "mean_accuracy",
+    "sufficient_models",
+    "level_placement",
+    "rule_costs",
+    "speed",
+    "index",
+}
 NODE = socket.gethostname().split(".")[0]
 # The cluster has no accounting, jobs take seconds, and no other user queries their states.
 QUICK = ("--slurm-status-command", "squeue", "--slurm-init-seconds-before-status-checks", "3")
@@ -62,6 +76,20 @@ PartitionName=test Nodes={node} Default=YES MaxTime=INFINITE State=UP
 """
 
 
+def copy_project(folder):
+    """Copy the project into a folder, without the results of runs."""
+
+    def not_copied(parent, names):
+        return NOT_COPIED(parent, names) | ({"results"} if Path(parent) == ROOT else set())
+
+    shutil.copytree(ROOT, folder, ignore=not_copied, dirs_exist_ok=True)
+
+
+def holds_times(path):
+    """Return True if a file, by its path below the folder of results, holds measured times."""
+    return path.parts[0] in TIMED_FOLDERS or path.stem in TIMED
+
+
 def remove_results(folder):
     for name in ("results", ".snakemake"):
         shutil.rmtree(folder / name, ignore_errors=True)
@@ -82,7 +110,8 @@ def run_to_end(folder, *arguments, disturb=None):
     start = time.perf_counter()
     with (folder / "run.log").open("w") as log:
         streams = {"stdout": log, "stderr": log, "start_new_session": True}
-        run = subprocess.Popen([*SNAKEMAKE, *arguments], cwd=folder, env=environment(folder), **streams)
+        variables = os.environ | {"PYTHONPATH": str(folder / "src")}  # the packages of the copy
+        run = subprocess.Popen([*SNAKEMAKE, *arguments], cwd=folder, env=variables, **streams)
     try:
         if disturb:
             disturb()

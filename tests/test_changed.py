@@ -14,7 +14,7 @@ import changed
         ("src/viscorough/io/text.py", "tests/viscorough/io/test_text.py"),
         # All tests of its folder.
         ("src/viscorough/contact/state.py", "tests/viscorough/contact/test_prescribed_depth.py"),
-        ("benchmarks/fuzz.py", "tests/benchmarks/test_fuzz.py"),
+        ("benchmarks/slurm.py", "tests/benchmarks/test_slurm.py"),
         ("Snakefile", "tests/workflow/test_form.py"),
         ("docs/theory.md", "tests/benchmarks/test_pages.py"),
     ],

@@ -20,24 +20,12 @@ pytestmark = pytest.mark.long
         ("audits", 20),
         ("whole_discs", 3),
         ("whole_tolerances", 10),
-        ("histories", 20),
     ],
 )
 def test_random_indenters_do_not_fail_silently(family, count):
     """Repeat a failure with `python benchmarks/campaign.py --family FAMILY --case NUMBER --seed 12`."""
     failures = {number: campaign.failure(family, 12, number) for number in range(count)}
     assert {number: wrong for number, wrong in failures.items() if wrong} == {}
-
-
-@pytest.mark.parametrize(
-    "number",
-    [
-        2694,  # a force that falls to zero while two contacts are equal to rounding
-        1922,  # a dashpot that is pressed on from a hold
-    ],
-)
-def test_difficult_histories_are_right(number):
-    assert campaign.failure("histories", 2013, number) == ""
 
 
 def test_a_silent_failure_is_counted(monkeypatch, tmp_path):

@@ -7,10 +7,13 @@ import sys
 from pathlib import Path
 
 import click
+import numpy.typing
 from docutils import nodes
 from docutils.parsers.rst import Directive
 from docutils.utils.math import latex2mathml
+from sphinx.util.typing import stringify_annotation
 
+from viscorough.basics import types
 from viscorough.cli import cli
 
 # Pages contain the columns of the tables of these folders.
@@ -23,13 +26,17 @@ extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
 nitpicky = True  # a reference without a target is a warning, and warnings are errors
-nitpick_ignore_regex = [("py:class", "array|bool|float|int|str")]  # types of attributes, in words
+# Types of attributes, in words, and types of other packages and of annotations, which have no page here.
+nitpick_ignore_regex = [
+    ("py:class", r"array|bool|float|int|str|[A-Z]\w+|(numpy|matplotlib|xarray|os|collections|viscorough)\..*")
+]
 default_role = "code"  # `names` in docstrings
 html_math_renderer = "mathml"
 
 autodoc_default_options = {"members": True, "member-order": "bysource"}
 autodoc_preserve_defaults = True
-autodoc_typehints = "none"  # docstrings describe the types
+autodoc_typehints = "signature"
+autodoc_typehints_format = "short"
 napoleon_google_docstring = False
 napoleon_use_param = False
 napoleon_use_rtype = False
@@ -92,6 +99,30 @@ def _link_to_pages(_app, _page, source):
         source[0] = source[0].replace(f"]({path}", f"]({page}")
 
 
+# {text that Sphinx makes of a type: its name in the source code}
+_SHORT_TYPES = {
+    stringify_annotation(getattr(module, name), "smart"): name
+    for module, names in (
+        (numpy.typing, ["ArrayLike", "DTypeLike"]),
+        (
+            types,
+            ["Array", "Integers", "Mask", "Numbers", "Scalar", "Several", "Seed", "FloatType", "FilePath", "Progress"],
+        ),
+    )
+    for name in names
+}
+
+
+def _shorten_types(_app, _what, _name, _object, _options, signature, returned):
+    """Write the names of types as in the source code, and the default options as a call."""
+    texts = []
+    for text in (signature, returned):
+        for long in sorted(_SHORT_TYPES, key=len, reverse=True):  # long texts contain short ones
+            text = text and text.replace(long, _SHORT_TYPES[long])
+        texts.append(text and text.replace("= DEFAULT", "= SolverOptions()"))
+    return tuple(texts)
+
+
 def _skip_tuple_fields(_app, _what, _name, member, _skip, _options):
     """Leave out the fields of a NamedTuple, which Sphinx would show as aliases of numbers; its docstring has them."""
     return True if type(member).__name__ == "_tuplegetter" else None
@@ -115,4 +146,5 @@ def setup(app):
     app.add_directive("table-columns", TableColumns)
     app.connect("source-read", _link_to_pages)
     app.connect("doctree-read", _lower_indices)
+    app.connect("autodoc-process-signature", _shorten_types)
     app.connect("autodoc-skip-member", _skip_tuple_fields)

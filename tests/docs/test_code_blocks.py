@@ -28,8 +28,8 @@ FILES = {
     "Zeit [": ("record.csv", lambda name, unit: read_load(name, length_unit=unit)),
     "kind: ": ("medium.yaml", read_medium),
 }
-# Blocks that other tests read: directives of the website, the citation, and settings (below).
-ELSEWHERE = {"bibtex", "{toctree}", "{include}", "{eval-rst}", "yaml"}
+# Blocks that other tests read: directives of the website, the citation, scripts in examples/, and settings (below).
+ELSEWHERE = {"bibtex", "{toctree}", "{include}", "{literalinclude}", "{eval-rst}", "yaml"}
 # Blocks that are parts of a workflow, or need a package that is not installed here.
 ALONE = ("rule tabulate_departures:", "use rule plot_surfaces as", "module viscorough:", "import nanite")
 

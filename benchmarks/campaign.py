@@ -20,10 +20,8 @@ import click
 import numpy as np
 from measuring import save
 from random_curves import (
-    audit_failure,
     curve_failure,
     levels_failure,
-    random_audit,
     random_curve,
     random_levels,
     random_whole_curve,
@@ -57,7 +55,6 @@ FAMILIES = {
     "starts": (partial(random_curve, with_start=True), curve_failure, 0.1),
     "forces": (partial(random_curve, at_forces=True), curve_failure, 1.0),
     "large_maps": (partial(random_curve, at_forces=True), as_on_large_maps, 1.0),
-    "audits": (random_audit, audit_failure, 0.1),
     "whole_discs": (partial(random_whole_curve, across=[257]), whole_curve_failure, 5 / 12),
     "whole_tolerances": (
         partial(random_whole_curve, across=[65, 129], largest_tolerance=1e-1, smallest_tolerance=1e-5),

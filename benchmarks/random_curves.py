@@ -10,11 +10,11 @@ import numpy as np
 from random_heights import random_heights, with_random_aspect
 
 from viscorough.basics.errors import AccuracyWarning, ConvergenceError
+from viscorough.contact.complete_contact import complete_contact
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.step_control import FINEST_ACCURACY
-from viscorough.contact.sum_rules import audit, complete_contact
 from viscorough.surfaces.indenter import Indenter
 from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough.viscous.integration.events import newtonian_events
@@ -72,13 +72,6 @@ def random_curve(generator, with_start=None, at_forces=False):
     return RandomCurve(with_random_aspect(indenter, generator), arguments)
 
 
-def random_audit(generator):
-    """Draw a RandomCurve with arguments of `audit`, from a numpy Generator."""
-    case = random_curve(generator)
-    arguments = {"options": case.arguments["options"], "tolerance": 10.0 ** -generator.uniform(2, 4)}
-    return RandomCurve(case.indenter, arguments)
-
-
 def random_whole_curve(generator, across, largest_tolerance=1e-2, smallest_tolerance=1e-2):
     """Draw a RandomCurve of an ordinary disc until complete contact, from a numpy Generator.
 
@@ -105,12 +98,6 @@ def whole_curve_failure(case, compute=indent):
     if abs(curve.force[-1] / expected - 1) > tolerance:
         return f"force at the end off by {curve.force[-1] / expected - 1:.2g}, tolerance {tolerance:.2g}"
     return ""
-
-
-def audit_failure(case):
-    """Return an error message on the integrals of the loading curve of a RandomCurve; "" if they are exact."""
-    result = audit(case.indenter, **case.arguments)
-    return "" if result.agrees else str(result)
 
 
 def levels_failure(case, solver_type=ContactSolver):

@@ -2,7 +2,7 @@
 
 The law of g, the interface's part of vt/h (viscorough.law.calibrated_law), has five constants for each Hurst exponent
 and grid. Two conditions are exact: its integrals over ln X and over X equal the means over the discs, which follow from
-linear solutions (viscorough.complete_contact). The remaining freedom is used to fit the mean of g. Other discs measure
+linear solutions (contact.complete_contact). The remaining freedom is used to fit the mean of g. Other discs measure
 the deviation of the law from g, and the range of its validity. Means over discs are arithmetic.
 
 Some properties of a disc are known exactly, without its curve: both integrals, and the distribution of its heights.
@@ -15,8 +15,8 @@ import numpy as np
 from scipy.integrate import simpson
 from scipy.optimize import least_squares
 
+from viscorough.contact.complete_contact import complete_contact
 from viscorough.contact.loading_path import indent
-from viscorough.contact.sum_rules import complete_contact
 from viscorough.law.calibrated_law import CONSTANTS, LARGEST_DEVIATION, interface_depth, interface_velocity
 from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.ensembles.averages import abscissa

@@ -6,8 +6,6 @@ from viscorough.basics.errors import ConvergenceError as ConvergenceError
 from viscorough.contact.loading_path import indent as indent
 from viscorough.contact.one_contact import contact_at as contact_at
 from viscorough.contact.options import SolverOptions as SolverOptions
-from viscorough.contact.sum_rules import audit as audit
-from viscorough.contact.sum_rules import complete_contact as complete_contact
 from viscorough.io.heights import read_heights as read_heights
 from viscorough.io.heights import read_line as read_line
 from viscorough.io.histories import read_load as read_load

@@ -17,7 +17,6 @@ pytestmark = pytest.mark.long
         ("starts", 100),
         ("forces", 100),
         ("large_maps", 50),
-        ("audits", 20),
         ("whole_discs", 3),
         ("whole_tolerances", 10),
     ],

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from law_calibration import COLUMNS, FIT_LOW, X, calibrate, complete_curve, fit_constants, law_integrals
 
-from viscorough.contact.sum_rules import audit
+from support.sum_rules import audit
 from viscorough.law.calibrated_law import CONSTANTS, interface_depth, interface_velocity
 from viscorough.surfaces.self_affine import self_affine_disc
 

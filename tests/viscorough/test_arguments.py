@@ -197,8 +197,6 @@ CALLS = {
     "line_of_map": [call(line_of_map, {"seed": 1}, surface=DISC)],
     "line_of_surface": [call(line_of_surface, {"square": HEIGHTS.tolist(), "spacing": 0.5, "seed": 1})],
     "reduce": [call(viscorough.reduce, {"until_fraction": 0.75, "until_force": (0.5, AREA)}, line=LINE)],
-    "audit": [call(viscorough.audit, {"tolerance": 0.0625, **OPTIONS}, indenter=DISC)],
-    "complete_contact": [call(viscorough.complete_contact, OPTIONS, indenter=indenter) for indenter in (DISC, LINE)],
     "cut_disc": [call(cut_disc, {"square": HEIGHTS.tolist(), "elements_across": 3})],
     "self_affine_disc": [
         call(viscorough.self_affine_disc, DISC_NUMBERS | ROLL_OFF, length_unit="um"),
@@ -449,7 +447,7 @@ NO_INDENTERS = ["heights.npy", Path("curve.nc"), None, 3.0, DISC, LINE, CURVE]
 def test_paths_and_arrays_are_refused_as_indenters_and_curves(name, wrong):
     each = CALLS[name][0]
     (argument,) = {"indenter", "line", "surface", "curve"} & set(each.others)
-    if type(wrong) is type(each.others[argument]) and (name == "complete_contact" or wrong is each.others[argument]):
+    if wrong is each.others[argument]:
         return
     with pytest.raises((TypeError, ValueError), match=name) as error:
         each.result(**{argument: wrong})
@@ -472,7 +470,7 @@ def test_wrong_media_are_refused(name, wrong):
 
 
 @pytest.mark.parametrize("options", [{}, {"precision": "double"}, 1e-3, "single"], ids=repr)
-@pytest.mark.parametrize("name", ["indent", "contact_at", "audit"])
+@pytest.mark.parametrize("name", ["indent", "contact_at"])
 def test_wrong_types_of_options_are_refused(name, options):
     with pytest.raises(TypeError, match="SolverOptions"):
         CALLS[name][0].result(options=options)

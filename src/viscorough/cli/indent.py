@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 @options.grid_error
 @options.until(0.9)
 @click.option("--until-force", type=options.QuantityOption("N"), help="F/G, or F with a modulus, at which to stop.")
-@click.option("--audit", is_flag=True, help="Compare two integrals of the curve with their exact values.")
 @options.elastic_constants
 @options.jobs
 @options.threads
@@ -46,7 +45,6 @@ def indent(
     grid_error: bool,
     until_fraction: float,
     until_force: Quantity | None,
-    audit: bool,
     jobs: int,
     threads: int,
     progress: bool | None,
@@ -72,11 +70,6 @@ def indent(
     case, G being the shear modulus of the incompressible half-space with the same E/(1 - nu^2) = 4 G. The curve ends at
     --until-fraction or at --until-force, whichever comes first, or when all elements are in contact.
 
-    With --audit the curve continues to complete contact, and two integrals of the curve are compared with their exact
-    values. The exact values follow from linear problems, without solving a contact problem. Contacts are solved to a
-    hundredth of the tolerance, and levels are added until the estimated errors of the integrals are within the
-    tolerance. If the integrals do not agree with the exact values, a warning is given.
-
     With --grid-error a second curve is computed on every second point of the map. The difference of the two curves
     estimates the errors due to the spacing of the map: grid_error is the error of the velocity at the force of each
     level, and force_grid_error the error of the force at the depth of each level. area_change is the relative change of
@@ -98,11 +91,10 @@ def indent(
     """
     settings: dict[str, Any] = {"depths": depths, "forces": forces, "grid_error": grid_error or None}
     settings |= {"until_fraction": until_fraction, "until_force": until_force}
-    _check_exclusive(settings, audit=audit)
+    _check_exclusive(settings)
     settings["tolerance"] = tolerance
     options.elasticity(length_unit="m", **constants)  # raises an error if these constants contradict each other
     if len(inputs) > 1 and output.suffix.lower() == ".csv":
-        options.require(not audit, "--audit is for one file of heights; leave it out, or audit one file at a time")
         evaluate = functools.partial(_rows, settings=settings, constants=constants, threads=threads)
         settings |= constants
         scans.tabulate(inputs, output, evaluate, settings=settings, jobs=jobs, progress=progress)
@@ -113,49 +105,27 @@ def indent(
 
     from viscorough.io.curves import curve_to_content
 
-    attributes, lines = file.attributes(indenter) | elastic_constants, list[str]()
     with messages.progress_bar("viscorough indent", progress) as report:
-        how: dict[str, Any] = {"progress": report, "threads": threads}
-        if audit:
-            curve, lines = _audited(indenter, tolerance=tolerance, **how)
-            attributes["audit"] = "\n".join(lines)
-        else:
-            curve = viscorough.indent(indenter, **_arguments(settings), shear_modulus=modulus, **how)
+        curve = viscorough.indent(
+            indenter, **_arguments(settings), shear_modulus=modulus, progress=report, threads=threads
+        )
+    attributes = file.attributes(indenter) | elastic_constants
     files.write_output(curve_to_content(curve, modulus), output, **attributes)
-    messages.announce(
-        output, "\n".join(filter(None, [_last_level(curve, indenter, modulus), *lines, curve.grid_error_text]))
-    )
+    lines = [_last_level(curve, indenter, modulus), curve.grid_error_text]
+    messages.announce(output, "\n".join(filter(None, lines)))
 
 
-def _audited(indenter: viscorough.Indenter, **how: Any) -> tuple[viscorough.LoadingCurve, list[str]]:
-    """Audit an indenter; return its loading curve, and the result of the audit as lines of text.
-
-    Issues a warning if the audit fails.
-
-    how : further arguments of viscorough.audit
-    """
-    result = viscorough.audit(indenter, **how)
-    lines = str(result).splitlines()
-    if not result.agrees:
-        messages.warn(lines[0])
-    return result.curve, lines
-
-
-def _check_exclusive(settings: dict[str, Any], *, audit: bool) -> None:
+def _check_exclusive(settings: dict[str, Any]) -> None:
     """Raise UsageError for options that exclude each other.
 
     settings : {name of an option: its value, or None if the option is not given}
-    audit : True if --audit is given
     """
     levels = {"--depths": settings["depths"], "--forces": settings["forces"]}
     ends = {"--until-fraction": settings["until_fraction"], "--until-force": settings["until_force"]}
-    others = ends | {"--audit": audit or None}
-    stated = [name for name, value in (levels | others).items() if value is not None]
+    stated = [name for name, value in (levels | ends).items() if value is not None]
     if len(stated) > 1:
         exclusive = f"{stated[0]} and {stated[-1]} exclude each other; one of them is allowed"
-        options.require(stated[0] not in levels and not audit, exclusive)
-    text = "--grid-error and --audit exclude each other: an audit checks the solution on the grid of the map"
-    options.require(not (settings["grid_error"] and audit), text)
+        options.require(stated[0] not in levels, exclusive)
 
 
 def _arguments(settings: dict[str, Any]) -> dict[str, Any]:

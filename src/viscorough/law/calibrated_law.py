@@ -20,7 +20,7 @@ with the term X of the punch and the term g of the interface,
 Sources of the numbers:
 
 - The constants A, b, s, m and d are in data/law.csv, a copy of results/tables/law.csv from `make law`. They are chosen
-  so that the integrals ∫g d ln X and ∫g dX equal the means of the exact integrals (viscorough.contact.sum_rules), and
+  so that the integrals ∫g d ln X and ∫g dX equal the means of the exact integrals (contact.complete_contact), and
   so that g is as close as possible to the mean over computed curves up to complete contact. The table also has the
   range of X in which g is within 5 % of the mean over other discs.
 - The intervals that contain single surfaces are in data/law_scatter.csv, a copy of results/tables/law_scatter.csv from

@@ -4,14 +4,11 @@ import textwrap
 import warnings
 
 import click
-import numpy as np
 import pytest
 
 import viscorough
-from support.command_line import python, run, sphere_heights
+from support.command_line import python
 from viscorough import ConvergenceError, cli
-from viscorough.contact import sum_rules
-from viscorough.io import netcdf
 
 
 def run_indent_as(function):
@@ -49,17 +46,6 @@ def test_warnings_are_written_once_and_on_one_line(capsys):
 
     assert run_indent_as(warn) == 0
     assert capsys.readouterr().err == "viscorough indent: warning: the spacing is odd\n"
-
-
-def test_audit_that_disagrees_is_a_warning(here, capsys, monkeypatch):
-    """docs/own_surface.md shows the output of --audit."""
-    np.save("heights.npy", 0.1 * sphere_heights(9))
-    monkeypatch.setattr(sum_rules.Audit, "agrees", False)
-    assert run("indent heights.npy --spacing 1 --unit um --audit -o out.nc") == 0
-    printed, attributes = capsys.readouterr(), netcdf.read("out.nc").attributes
-    assert "warning: Audit over" in printed.err
-    assert attributes["warnings"].startswith("Audit over")
-    assert printed.out.endswith(f"49 of 49 elements in contact\n{attributes['audit']}\n")
 
 
 def test_command_without_arguments_lists_the_commands(capsys):

@@ -43,8 +43,6 @@ MISTAKES = [
     ("indent um.nc -o um.nc", "replace the heights"),
     ("indent heights.npy --spacing 1 -o curve.nc/out.nc", "curve.nc/out.nc: there is no folder curve.nc"),
     *[(f"{INDENT} --forces 1 {other} 1", EXCLUDE) for other in ("--depths", "--until-fraction", "--until-force")],
-    *[(f"{INDENT} --audit {name} 1", f"{name} and --audit {EXCLUDE}") for name in ("--depths", "--until-fraction")],
-    (f"{INDENT} --grid-error --audit", "--grid-error and --audit exclude each other"),
     (f"{INDENT} --crop 0:2,0:9 --grid-error", "every n-th point, n = 2, of a map of 9 x 2 points"),
     (f"{INDENT} --until-force '1 N'", "a force needs --shear-modulus or --young"),
     (CONTACT, "one of --force and --depth is needed"),
@@ -88,7 +86,6 @@ MISTAKES = [
     (f"{ESTIMATE} --rms 1 --force 1e30 --viscosity 1", "--times: X = F·J(t)/(4hL) is"),
     (f"{ESTIMATE.replace('0.8', '0.05')} --rms 1 --force 1 --viscosity 1", "--hurst: must be from 0.1 to 1"),
     (f"{GENERATE} --elements 5 --roll-off 0.01", "--roll-off: must leave at least one wave"),
-    (f"{INDENT} --audit --tolerance 1e-11", "indent: --tolerance must be between 1e-10 and 0.1"),
     (f"{CONTACT.replace('--spacing 1', '--spacing 1e-170')} --depth 1", "contact: a spacing of 1e-170 is too small to"),
     (
         f"{KINETICS} --force 1e6 --viscosity 1 --times 1e6",

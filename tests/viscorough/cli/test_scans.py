@@ -158,7 +158,6 @@ def test_curves_of_a_folder_have_a_row_for_each_level(here):
         (f"contact scans/a.nc scans/b.nc {OPTIONS} --crop 1 -o out.csv", "--crop 1: is not X0:X1,Y0:Y1"),
         (f"contact scans/a.nc scans/b.nc {OPTIONS} --poisson 0.3 --shear-modulus 1 -o out.csv", "exclude each other"),
         ("contact scans/a.nc scans/b.nc --force 5,1 -o out.csv", "each larger than the one before"),
-        ("indent scans/a.nc scans/b.nc --audit -o out.csv", "--audit is for one file of heights"),
         (f"contact scans/a.nc scans/b.nc {OPTIONS} -o out.xlsx", "unknown kind of file"),
     ],
 )

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from viscorough import Indenter, SolverOptions, complete_contact, indent, self_affine_disc
+from viscorough import Indenter, SolverOptions, indent, self_affine_disc
+from viscorough.contact.complete_contact import complete_contact
 from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.reference import sphere
 from viscorough.surfaces.self_affine import self_affine_square

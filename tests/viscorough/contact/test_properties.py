@@ -16,12 +16,12 @@ from support.influence import influence_matrix
 from viscorough import (
     Indenter,
     SolverOptions,
-    complete_contact,
     contact_at,
     indent,
     kinetics,
     self_affine_disc,
 )
+from viscorough.contact.complete_contact import complete_contact
 from viscorough.contact.gap_map import gap_map
 from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.viscous.integration.events import newtonian_events

@@ -1,4 +1,4 @@
-"""Two exact integrals of loading curves: from linear solutions, over curves, and in audits."""
+"""Two integrals of loading curves have the exact values that linear solutions give."""
 
 from dataclasses import replace
 
@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from support.influence import influence_matrix
-from viscorough import Indenter, SolverOptions, audit, complete_contact, indent, reduce
-from viscorough.contact.sum_rules import integrals
+from support.sum_rules import audit, integrals
+from viscorough import Indenter, SolverOptions, indent, reduce
+from viscorough.contact.complete_contact import CompleteContact, complete_contact
 from viscorough.reference import cone, sphere
 from viscorough.surfaces.self_affine import cut_disc, self_affine_disc, self_affine_line, self_affine_square
 
@@ -102,7 +103,6 @@ def test_audit_disagrees_if_levels_do_not_reduce_the_error():
     options = SolverOptions(dense_contacts=0, dense_interactions=0, padding=False)
     result = audit(self_affine_disc(0.6, 33, seed=1), tolerance=3e-3, options=options)
     assert not result.agrees
-    assert "do not agree" in str(result)
 
 
 def test_audit_requires_the_curve_tolerance_between_levels():
@@ -113,21 +113,15 @@ def test_audit_requires_the_curve_tolerance_between_levels():
         for error, agrees in ((0.99 * promised, True), (1.01 * promised, False)):
             judged = replace(result, interpolation_error=error)
             assert (judged.is_interpolated, judged.agrees) == (agrees, agrees)
-            assert ("depths between levels are off by" in str(judged)) != agrees
     assert not replace(whole, tolerance=1e-20).agrees
 
 
-def test_complete_contact_of_a_line_is_exact():
-    """U/G = 2 Δx Σ (g − ⟨g⟩)²: heights 0, −1, −5 have the gaps 0, 1, 5 with the mean 2."""
-    end = complete_contact(Indenter(np.array([0.0, -1.0, -5.0]), 0.5))
-    assert (end.mean_gap, end.stiffness, end.depth) == (2.0, 6.0, 5.0)
-    assert end.energy == pytest.approx(14.0, rel=1e-15)
-    assert end.force == 18.0
-
-
 def test_integrals_of_independent_springs_are_exact():
+    """On a line, ⟨g⟩ is the plain mean of the gaps, and U/G = 2 Δx Σ (g − ⟨g⟩)²."""
     line = self_affine_line(0.7, 3000, seed=3, dtype=np.float64)
-    curve, end = reduce(line), complete_contact(line)
+    gap, punch = line.initial_gap, 4 * line.spacing * line.elements
+    end = CompleteContact(gap.mean(), punch / 2 * gap.var(), punch, gap.max())
+    curve = reduce(line)
     np.testing.assert_allclose([curve.stiffness[-1], curve.depth[-1]], [end.stiffness, end.depth], rtol=0.016)
     rules = integrals(curve, end)
     assert rules.largest_deviation < 1e-3
@@ -138,8 +132,3 @@ def test_indenter_of_one_height_has_integrals_of_zero():
     result = audit(Indenter(np.full((3, 4), 2.0), 0.5))
     assert result.agrees
     assert (result.complete.mean_gap, result.complete.energy, result.complete.force) == (0, 0, 0)
-
-
-def test_tolerance_out_of_range_is_refused():
-    with pytest.raises(ValueError, match=r"^audit: tolerance must be between 1e-10 and 0.1, not 1.0$"):
-        audit(INDENTERS["sphere"], tolerance=1.0)

@@ -1,4 +1,4 @@
-"""Compare two integrals of a loading curve with their exact values, which follow from two linear problems.
+"""Oracle of loading curves: two integrals of a curve, compared with exact values from two linear problems.
 
 First let all elements be joined to the surface, so that they also transmit tension. At the depth u, the pressures p are
 then p/G = u q − s with K q = 1 and K s = g₀. Here G is the shear modulus, g₀ the initial gap, and the matrix K gives
@@ -10,33 +10,22 @@ The loading curve of the frictionless contact, with the stiffness k = dF/du, end
     ∫₀^∞ (1/k − 1/k_c) dF = ⟨g₀⟩_q        ∫₀^∞ (⟨g₀⟩_q + F/k_c − u) dF = ∫ F (1/k − 1/k_c) dF = U
 
 where U is the elastic energy of the joined surface at zero mean force. The left-hand sides are integrals of a computed
-curve. The right-hand sides need no contact problem, so they check levels, stiffness and interpolation of the curve.
+curve. The right-hand sides need no contact problem (viscorough.contact.complete_contact), so they check levels,
+stiffness and interpolation of the curve.
 
 In the paper's variables X = F/(4GhL) and κ = k/(4GL), with the rms height h and the diameter L, these are the integrals
 of g(X) = X/κ − X/κ_c over ln X and over X. The function g is the contribution of the interface to vt/h, where v is the
 velocity and t the time.
 """
 
-import sys
 import warnings
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
-from viscorough.basics.argument_names import argument
-from viscorough.basics.arrays import ReadOnlyArrays, real_number
-from viscorough.basics.errors import AccuracyWarning
-from viscorough.basics.summaries import unit_power, with_unit
-from viscorough.basics.types import Array, Progress
-from viscorough.contact.joined_surface import joined_surface
-from viscorough.contact.loading_path import indent
-from viscorough.contact.options import DEFAULT, SolverOptions
-from viscorough.contact.parallel import require_threads
-from viscorough.contact.ranking import all_elements
+from viscorough import AccuracyWarning, LoadingCurve, SolverOptions, indent
+from viscorough.contact.complete_contact import CompleteContact, complete_contact
 from viscorough.contact.step_control import FINEST_ACCURACY
-from viscorough.results.loading_curve import LoadingCurve
-from viscorough.surfaces.indenter import Indenter, check_indenter
 
 # The curve counts as straight between two levels if the tangent at the first level passes through the second level,
 # within this relative difference in depth.
@@ -52,8 +41,6 @@ _JUMP_OF_SECOND = 720**-0.5
 # The tolerance of the contacts is this share of the tolerance of the audit. Errors of the stiffness may then take a
 # tenth of the tolerance of the audit. Their effect on the first integral grows with the force at complete contact.
 _CONTACT_TOLERANCE = 0.01
-# Smallest tolerance to which contacts can be solved.
-_LEAST_CONTACT_TOLERANCE = 1e-12
 # Levels are added in rounds. In one round, an interval between levels is divided into at most this number of parts.
 _MOST_PARTS = 3
 # Largest number of rounds in which levels are added.
@@ -66,53 +53,14 @@ _TINY = 1e-300
 
 
 @dataclass(frozen=True)
-class CompleteContact(ReadOnlyArrays):
-    """Complete contact of an indenter, and exact values of the two integrals of its loading curve.
-
-    All values follow from two linear problems (see contact.joined_surface).
-
-    Attributes
-    ----------
-    mean_gap : float
-        Exact value ⟨g₀⟩_q of the first integral, the mean initial gap weighted with the pressures of a flat punch
-        [length].
-    energy : float
-        Exact value U/G of the second integral, where U is the elastic energy at zero mean force if all elements are
-        joined to the surface [length³].
-    stiffness : float
-        Stiffness k_c/G of a flat punch with the outline of the whole indenter [length].
-    depth : float
-        Smallest depth u where all elements touch [length].
-    length_unit : str
-        Unit of the lengths; "1" if it is not known.
-    """
-
-    mean_gap: float
-    energy: float
-    stiffness: float
-    depth: float
-    length_unit: str = "1"
-
-    @property
-    def force(self) -> float:
-        """Return the force of complete contact, F/G = k_c (u − ⟨g₀⟩_q)/G [length²]."""
-        return self.stiffness * (self.depth - self.mean_gap)
-
-
-@dataclass(frozen=True)
 class Integral:
     """One of the two integrals of a loading curve, compared with its exact value.
 
-    Attributes
-    ----------
-    exact : float
-        Exact value, from two linear problems.
-    deviations : dict
-        Relative deviation of each quadrature of the curve from the exact value. The keys are the names of the
-        quadratures (see `SumRules`).
-    error : float
-        Estimated relative error. For the first integral it is the error of the quadrature "by levels". For the second
-        integral it holds for both quadratures.
+    exact : exact value, from two linear problems
+    deviations : relative deviation of each quadrature of the curve from the exact value, {name of the quadrature:
+        deviation} (see `SumRules`)
+    error : estimated relative error. For the first integral it is the error of the quadrature "by levels". For the
+        second integral it holds for both quadratures
     """
 
     exact: float
@@ -131,23 +79,18 @@ class Integral:
 
 
 @dataclass(frozen=True)
-class SumRules(ReadOnlyArrays):
+class SumRules:
     """Both integrals of a loading curve, each computed by several quadratures and compared with its exact value.
 
-    Attributes
-    ----------
-    first : Integral
-        Integral ∫ (1/k − 1/k_c) dF = ⟨g₀⟩_q [length]. It is computed by three quadratures. "last level" is u − F/k_c at
-        the last level. "by levels" uses forces and stiffnesses of the levels alone. "between levels" uses the stiffness
-        that `LoadingCurve.at_force` interpolates. For a curve of `indent`, "last level" checks nothing, because the
-        depth of complete contact follows from the same linear problems as the exact value.
-    second : Integral
-        Integral ∫ (⟨g₀⟩_q + F/k_c − u) dF = U, as U/G [length³]. It is computed by two quadratures. "by levels" uses
-        depths and stiffnesses of the levels alone. "between levels" uses the depth that `LoadingCurve.at_force`
-        interpolates.
-    errors : array
-        Estimated relative errors √(e₁² + e₂²) of the intervals between levels, shape (levels,). Here e₁ and e₂ are
-        the contributions of an interval to the errors of both integrals. The first interval starts at zero force.
+    first : integral ∫ (1/k − 1/k_c) dF = ⟨g₀⟩_q [length]. It is computed by three quadratures. "last level" is
+        u − F/k_c at the last level. "by levels" uses forces and stiffnesses of the levels alone. "between levels" uses
+        the stiffness that `LoadingCurve.at_force` interpolates. For a curve of `indent`, "last level" checks nothing,
+        because the depth of complete contact follows from the same linear problems as the exact value
+    second : integral ∫ (⟨g₀⟩_q + F/k_c − u) dF = U, as U/G [length³]. It is computed by two quadratures. "by levels"
+        uses depths and stiffnesses of the levels alone. "between levels" uses the depth that `LoadingCurve.at_force`
+        interpolates
+    errors : estimated relative errors √(e₁² + e₂²) of the intervals between levels, shape (levels,). Here e₁ and e₂ are
+        the contributions of an interval to the errors of both integrals. The first interval starts at zero force
     """
 
     first: Integral
@@ -166,24 +109,15 @@ class SumRules(ReadOnlyArrays):
 
 
 @dataclass(frozen=True)
-class Audit(ReadOnlyArrays):
-    """Result of `audit`: a loading curve up to complete contact, and its two integrals.
+class Audit:
+    """A loading curve up to complete contact, with levels added until its two integrals were accurate enough.
 
-    Levels were added to the curve until the integrals were accurate enough.
-
-    Attributes
-    ----------
-    tolerance : float
-        Requested relative accuracy of both integrals.
-    complete : CompleteContact
-        Complete contact of the indenter.
-    curve : LoadingCurve
-        Curve with the added levels.
-    rules : SumRules
-        Both integrals of the curve with the added levels.
-    interpolation_error : float
-        Largest relative error of interpolated depths. At each added level, the computed depth is compared with the
-        depth that is interpolated on the curve without added levels.
+    tolerance : requested relative accuracy of both integrals
+    complete : CompleteContact of the indenter
+    curve : LoadingCurve with the added levels
+    rules : SumRules of this curve
+    interpolation_error : largest relative error of interpolated depths. At each added level, the computed depth is
+        compared with the depth that is interpolated on the curve without added levels
     """
 
     tolerance: float
@@ -193,106 +127,14 @@ class Audit(ReadOnlyArrays):
     interpolation_error: float
 
     @property
-    def integrals_agree(self) -> bool:
-        """Return True if the estimated error and all deviations from the exact integrals are within the tolerance."""
-        return max(self.rules.error, self.rules.largest_deviation) <= self.tolerance
-
-    @property
     def is_interpolated(self) -> bool:
         """Return True if the interpolated depth between levels is as accurate as `indent` promises."""
         return self.interpolation_error <= max(self.curve.tolerance, FINEST_ACCURACY)
 
     @property
     def agrees(self) -> bool:
-        """Return True if both `integrals_agree` and `is_interpolated` are True."""
-        return self.integrals_agree and self.is_interpolated
-
-    def __str__(self) -> str:
-        """Return a text: whether the integrals agree, and their exact values, deviations and estimated errors."""
-        verdict = "agree" if self.integrals_agree else "do not agree"
-        text = f"Audit over {self.curve.depth.size} levels: both integrals {verdict} to {self.tolerance:g}"
-        if not self.is_interpolated:
-            text += f", and depths between levels are off by {self.interpolation_error:.1e}"
-        for name, integral, power in (("mean gap", self.rules.first, 1), ("energy U/G", self.rules.second, 3)):
-            exact = with_unit(integral.exact, unit_power(self.curve.length_unit, power), 8)
-            deviations = ", ".join(
-                f"{quadrature} {deviation:+.1e}" for quadrature, deviation in integral.deviations.items()
-            )
-            text += f"\n{name} {exact}, {deviations}, estimated error {integral.error:.1e}"
-        return text
-
-
-def complete_contact(indenter: Indenter, *, threads: int = 1) -> CompleteContact:
-    """Compute the complete contact of an indenter from two linear problems, without a contact problem.
-
-    If all elements are joined to the surface, so that they also transmit tension, the pressures at the depth u are
-    u q − s with K q = 1 and K s = g₀. Here g₀ is the initial gap, K the matrix of influence coefficients, and a
-    pressure p is expressed as the length p d/(4πG), with the side d of an element and the shear modulus G. The
-    solutions give::
-
-        ⟨g₀⟩_q = Σs/Σq,   k_c/G = 4π d Σq,   U/G = 2π d (Σ s g₀ − (Σs)²/Σq),   u = max s/q
-
-    These are the mean initial gap with the weights q, the stiffness and the elastic energy (see `CompleteContact`), and
-    the depth u where the last tension vanishes. The linear problems are solved on the grid by preconditioned conjugate
-    gradients. On a line of n points with the spacing Δx, the surface consists of independent springs of stiffness 4G Δx
-    (MDR), so that::
-
-        ⟨g₀⟩_q = mean g₀,   k_c/G = 4 Δx n,   U/G = 2 Δx Σ (g₀ − mean g₀)²,   u = max g₀
-
-    Parameters
-    ----------
-    indenter : Indenter
-        Map or line of heights.
-    threads : int, optional
-        Number of threads; it does not change the result.
-
-    Returns
-    -------
-    CompleteContact
-
-    Raises
-    ------
-    ConvergenceError
-        If the linear problems cannot be solved to a relative residual of 1e-12.
-
-    Examples
-    --------
-    >>> import numpy as np, viscorough
-    >>> heights = np.array([[0.0, -1.0], [-1.0, 0.0]])
-    >>> end = viscorough.complete_contact(viscorough.Indenter(heights, spacing=1.0))
-    >>> round(float(end.mean_gap), 12)  # the four elements are equivalent
-    0.5
-    """
-    check_indenter("complete_contact", indenter)
-    require_threads("complete_contact", threads)
-    if indenter.heights.ndim == 1:
-        gap, stiffness = indenter.initial_gap, 4 * indenter.spacing * indenter.elements
-        largest = gap.max()
-        energy = _energy(stiffness / 2 * (gap / (largest or 1.0)).var(), largest)
-        return CompleteContact(float(gap.mean()), energy, stiffness, float(largest), indenter.length_unit)
-    elements = all_elements(indenter, threads)
-    units = elements.units
-    joined = joined_surface(elements, threads=threads)
-    above_mean = elements.initial_gap - joined.mean_gap
-    energy = _energy(float(units.stiffness / 2 * joined.load @ above_mean), units.length)
-    return CompleteContact(
-        mean_gap=joined.mean_gap * units.length,
-        energy=energy,
-        stiffness=units.stiffness * joined.tangent.sum(),
-        depth=joined.depth * units.length,
-        length_unit=indenter.length_unit,
-    )
-
-
-def _energy(reduced: float, length: float) -> float:
-    """Return the energy reduced · length². Raises ValueError if double precision cannot represent the energy."""
-    with np.errstate(over="ignore", under="ignore"):
-        energy = float(reduced * np.square(length))
-    if not np.isfinite(energy) or 0 < abs(energy) < sys.float_info.min or (energy == 0 and reduced * length != 0):
-        size, unit = ("large", "larger") if energy > 1 else ("small", "smaller")
-        text = f"the energy of complete contact is too {size} to represent; a {unit} unit of length is needed"
-        raise ValueError(text)
-    return energy
+        """Return True if error and deviations of both integrals are within the tolerance, and `is_interpolated`."""
+        return max(self.rules.error, self.rules.largest_deviation) <= self.tolerance and self.is_interpolated
 
 
 def integrals(curve: LoadingCurve, complete: CompleteContact) -> SumRules:
@@ -366,14 +208,7 @@ def integrals(curve: LoadingCurve, complete: CompleteContact) -> SumRules:
     )
 
 
-def audit(
-    indenter: Indenter,
-    *,
-    tolerance: float = 1e-3,
-    progress: Progress | None = None,
-    threads: int = 1,
-    options: SolverOptions = DEFAULT,
-) -> Audit:
+def audit(indenter, tolerance=1e-3, options=None) -> Audit:
     """Compute a loading curve up to complete contact, and compare its two integrals with their exact values.
 
     Contacts are solved to a hundredth of the tolerance. Levels are added in the intervals with the largest estimated
@@ -381,46 +216,11 @@ def audit(
     number of levels, because the stiffness jumps whenever an element touches. On maps of up to 400 elements there is a
     level for every element that touches, and the integrals are exact within rounding.
 
-    Parameters
-    ----------
-    indenter : Indenter
-        Indenter with two-dimensional heights.
-    tolerance : float, optional
-        Relative accuracy of both integrals, between 1e-10 and 0.1.
-    progress : Progress, optional
-        Function that is called before each round that adds levels, with the number of the round divided by the largest
-        allowed number of rounds.
-    threads : int, optional
-        Number of threads; it does not change the result.
-    options : SolverOptions, optional
-        Details of the iterations, such as their precision; change them only to measure their effect.
-
-    Returns
-    -------
-    Audit
-
-    Raises
-    ------
-    ValueError
-        For arguments out of range.
-    ConvergenceError
-        If a contact cannot be solved.
-
-    Examples
-    --------
-    >>> import viscorough
-    >>> disc = viscorough.self_affine_disc(0.8, 17, seed=1)
-    >>> bool(viscorough.audit(disc, tolerance=1e-9).agrees)
-    True
+    tolerance : relative accuracy of both integrals, from 1e-10 on
+    options : SolverOptions
     """
-    check_indenter("audit", indenter, 2)
-    tolerance = real_number(argument("tolerance", of="audit"), tolerance)
-    if not 1e-10 <= tolerance <= 0.1:
-        raise ValueError(f"{argument('tolerance', of='audit')} must be between 1e-10 and 0.1, not {tolerance!r}")
-    progress = progress or (lambda done: None)
-    contact_tolerance = max(_CONTACT_TOLERANCE * tolerance, _LEAST_CONTACT_TOLERANCE)
-    how: dict[str, Any] = {"tolerance": contact_tolerance, "threads": threads, "options": options}
-    complete = complete_contact(indenter, threads=threads)
+    how = {"tolerance": _CONTACT_TOLERANCE * tolerance, "options": options or SolverOptions()}
+    complete = complete_contact(indenter)
     plain = curve = _curve(indenter, until_fraction=1.0, **how)
     rules, norms = integrals(curve, complete), [np.inf, np.inf]
     for number in range(_MAX_ROUNDS):
@@ -435,7 +235,6 @@ def audit(
         depths = _depths_to_add(curve, rules, allowed)
         if depths.size == 0:
             break
-        progress((number + 1) / _MAX_ROUNDS)
         try:
             curve = _merged(curve, _curve(indenter, depths=depths, **how))
         except ValueError:
@@ -448,7 +247,7 @@ def audit(
     return Audit(tolerance, complete, curve, rules, abs(interpolated - 1).max(initial=0.0))
 
 
-def _curve(indenter: Indenter, **how: Any) -> LoadingCurve:
+def _curve(indenter, **how) -> LoadingCurve:
     """Return the curve of `indent`, and ignore AccuracyWarnings.
 
     `indent` warns if the depth is larger than the map is wide, as it may be before contact is complete. The integrals
@@ -458,7 +257,7 @@ def _curve(indenter: Indenter, **how: Any) -> LoadingCurve:
         return indent(indenter, **how)
 
 
-def _depths_to_add(curve: LoadingCurve, rules: SumRules, allowed: float) -> Array:
+def _depths_to_add(curve: LoadingCurve, rules: SumRules, allowed: float):
     """Return depths of new levels that reduce the error of the integrals to the allowed error, with few new levels.
 
     Each interval between two levels is divided into n equal parts, which makes its error e about n times smaller. If
@@ -482,7 +281,7 @@ def _depths_to_add(curve: LoadingCurve, rules: SumRules, allowed: float) -> Arra
 def _merged(curve: LoadingCurve, added: LoadingCurve) -> LoadingCurve:
     """Return the LoadingCurve with the levels of two curves of the same indenter."""
     order = np.argsort(np.append(curve.depth, added.depth))
-    levels: dict[str, Any] = {
+    levels = {
         name: np.append(getattr(curve, name), getattr(added, name))[order]
         for name in ("depth", "force", "stiffness", "contact_count", "residual")
     }

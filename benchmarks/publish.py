@@ -43,10 +43,10 @@ PUBLISHED = {
         "literature zeta_laws grid_dependence periodic",
     ),
     "speed": _made(
-        "speed level_placement",
-        "methods other_solvers level_placement one_surface mean_accuracy sufficient_models",
+        "speed",
+        "methods other_solvers one_surface mean_accuracy sufficient_models",
     ),
-    "stability": _made("failures failure_map", "failure_map failure_knobs", "campaign.json"),
+    "stability": _made("failures failure_map", "failure_map", "campaign.json"),
     "sizes": _made("sizes local_exponent", "sizes fine_exponents fine_velocities fine_costs"),
     "large": _made(tables="large"),
     "bench": ["benchmarks.json"],

@@ -26,7 +26,7 @@ BOUNDARY_ELEMENTS = {
     "compare_exact",
     "measure_methods",
 }
-BOUNDARY_ELEMENTS |= {"map_failures", "compare_level_placement", "measure_surfaces", "vary_settings"}
+BOUNDARY_ELEMENTS |= {"map_failures", "measure_surfaces"}
 BOUNDARY_ELEMENTS |= {"compare_histories"}
 
 
@@ -57,7 +57,7 @@ def add_line(path, line):
 
 
 FEW_STEPS = {"media": {"force": 2e-4}, "verdicts": {"draws": 3}, "interface": {"plateau": 0.1}}
-FEW_STEPS |= {"methods": {"levels": 3, "scenes": {"elements": 31}}, "validation": {"elements": [17, 31]}}
+FEW_STEPS |= {"methods": {"levels": 3}, "validation": {"elements": [17, 31]}}
 FEW_STEPS |= {"stability": {"across": 11}, "direct": {"elements": 31}}
 OF_FEW_STEPS = {
     "compute_media",
@@ -67,13 +67,12 @@ OF_FEW_STEPS = {
     "measure_methods",
     "compare_exact",
 }
-OF_FEW_STEPS |= {"compare_level_placement", "map_failures", "vary_settings", "compare_direct", "compare_histories"}
+OF_FEW_STEPS |= {"map_failures", "compare_direct", "compare_histories"}
 FITS = {"match_lambda", "compare_zeta_laws", "judge_claims"}
 OF_CONVENTIONS = FITS | {
     "tabulate_calibration",
     "tabulate_literature",
     "compare_means",
-    "vary_settings",
 }
 OF_CONVENTIONS |= {"plot_kinetics", "plot_master_curve", "plot_exponent", "plot_conventions", "plot_sizes"}
 

@@ -210,32 +210,6 @@ rule map_failures:
         "../scripts/map_failures.py"
 
 
-rule vary_settings:
-    input:
-        discs="results/ensembles/discs.nc",
-        scaling="results/tables/scaling.csv",
-    output:
-        csv="results/tables/failure_knobs.csv",
-    log:
-        "results/logs/vary_settings.log",
-    benchmark:
-        "results/benchmarks/vary_settings.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    resources:
-        mem_mb=2000,
-    params:
-        across=config["stability"]["across"],
-        conventions=config["figures"],
-        seed=config["seed"],
-        source=digest("vary_settings"),
-    message:
-        "Error over the number of steps, the width of the box and the range of the power law"
-    script:
-        "../scripts/vary_settings.py"
-
-
 # Settings that determine the contacts of a measured surface. The digest changes with the content of its file.
 PRESSED = ("group", "file", "digest", "spacing", "unit", "preparation", "forces", "young_modulus", "poisson_ratio")
 

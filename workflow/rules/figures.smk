@@ -277,7 +277,6 @@ use rule plot_surfaces as plot_speed with:
 use rule plot_surfaces as plot_failures with:
     input:
         table="results/tables/failure_map.csv",
-        knobs="results/tables/failure_knobs.csv",
     output:
         path=report(
             "results/figures/failures.{format}",
@@ -315,27 +314,6 @@ use rule plot_surfaces as plot_failure_map with:
         source=digest("plot", figure="failure_map"),
     message:
         "Figure: every method in every stress-test case"
-
-
-use rule plot_surfaces as plot_level_placement with:
-    input:
-        table="results/tables/level_placement.csv",
-    output:
-        path=report(
-            "results/figures/level_placement.{format}",
-            caption="../report/figures/level_placement.rst",
-            category=category("6 Speed and accuracy"),
-            labels={"result": "placement of levels", "kind": "figure"},
-        ),
-    log:
-        "results/logs/plot_level_placement/{format}.log",
-    benchmark:
-        "results/benchmarks/plot_level_placement/{format}.tsv"
-    params:
-        figure="level_placement",
-        source=digest("plot", figure="level_placement"),
-    message:
-        "Figure: placement of levels"
 
 
 use rule plot_surfaces as plot_media with:
@@ -474,7 +452,6 @@ rule figures:
                 "validation",
                 "speed",
                 "failures",
-                "level_placement",
                 "media",
                 "histories",
                 "sizes",
@@ -508,10 +485,9 @@ rule figure_4:
 
 
 rule speed:
-    """Speed against accuracy of every model and method, and the placement of levels."""
+    """Speed against accuracy of every model and method."""
     input:
         "results/figures/speed.png",
-        "results/figures/level_placement.png",
 
 
 rule stability:

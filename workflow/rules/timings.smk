@@ -49,30 +49,6 @@ rule measure_surfaces:
         "../scripts/measure_surfaces.py"
 
 
-rule compare_level_placement:
-    output:
-        csv="results/tables/level_placement.csv",
-    log:
-        "results/logs/compare_level_placement.log",
-    benchmark:
-        "results/benchmarks/compare_level_placement.tsv"
-    priority: 3
-    conda:
-        "../envs/viscorough.yaml"
-    threads: ALL_CORES
-    resources:
-        mem_mb=4000,
-    params:
-        **config["methods"]["scenes"],
-        repeats=config["methods"]["repeats"],
-        seed=config["seed"],
-        source=digest("compare_level_placement"),
-    message:
-        "Placement of levels: by the package, by hand, naively"
-    script:
-        "../scripts/compare_level_placement.py"
-
-
 rule compare_means:
     input:
         discs="results/ensembles/discs.nc",

@@ -4,8 +4,4 @@
 # over many surfaces, or both.
 GRID, CONTACT, LAW, PAPER = "grid", "one contact", "law", "H/(1 + H)"
 MDR, MDR_PI, MDR_FITTED = "MDR", "MDR, λ = π", "MDR, λ fitted"
-# Names of methods that choose the depths (levels) at which a loading curve is computed.
-AUTOMATIC, BY_HAND, NAIVE = "automatic", "best by hand", "naive"
-# Names of settings that decide whether a method works (robustness.knobs).
-STEPS, BOX, RANGE = "explicit steps", "box", "power law"
 PAPER_GRID = 257  # elements across the discs of the paper

@@ -7,9 +7,9 @@ other realizations, on their order, or on the number of cores. The numbers of th
 result: do not change them, and give a new stream a new number. The numbers 7 and 17 belonged to parts
 that are gone.
 
-Three parts have no stream. The bootstrap of the fits and the disc of the level-placement scenes use the root without a
-spawn key. The spawn key of a random indenter in the stability campaign is only the number of its test case
-(`random_indenter_key`), and the campaign has a separate root.
+Two parts have no stream. The bootstrap of the fits uses the root without a spawn key. The spawn key of a random
+indenter in the stability campaign is only the number of its test case (`random_indenter_key`), and the campaign has a
+separate root.
 """
 
 import zlib

@@ -416,13 +416,6 @@ class Reduction(Section):
 ROUGH_GRIDS = several(whole(9, 1025), 1, 8, once=True)
 
 
-class Scenes(Section):
-    """Indenters for which placements of the levels of a loading curve are compared."""
-
-    elements: whole(9, 1025) = meaning("elements across the indenters for which the placement of levels is compared")
-    hurst: real(0, 1) = meaning("Hurst exponent of the rough disc among these indenters")
-
-
 class OneSurface(Section):
     """Surfaces on which all models of a single surface are compared."""
 
@@ -453,7 +446,6 @@ class Methods(Section):
     longest: real(0.01, 3600, unit="s") = meaning(
         "time from which on a method is neither repeated nor tried at finer values of its parameter"
     )
-    scenes: Scenes
     one_surface: OneSurface
 
 

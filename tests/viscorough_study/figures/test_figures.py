@@ -99,11 +99,6 @@ def expected_points(scaling):
         yield "local_exponent", panel, points(fine[fine["quantity"] == quantity], "middle", "beta")
     judged = fine.query("judged == 1 and quantity == 'whole'").assign(shifted=fine["hurst"] + SHIFT)
     yield "fig4_exponent", 0, points(judged, "shifted", "beta", "beta_low", "beta_high")
-    for panel, (_, rows) in enumerate(published("level_placement").groupby("scene", sort=False)):
-        yield "level_placement", panel, points(rows.query("error > 3e-5"), "processor_s", "error")
-    for panel, (_, rows) in enumerate(published("failure_knobs").groupby("knob", sort=False), 2):
-        rows = rows[(rows["hurst"] == 0.4) | (rows["knob"] != "power law")]
-        yield "failures", panel, points(rows.query("error > 0"), "value", "error")
 
 
 def test_figures_show_the_numbers_of_their_tables(drawn, scaling):
@@ -190,7 +185,7 @@ def test_label_of_the_fastest_solver_lies_within_its_axes():
 
 
 def test_bars_of_failures_are_shares_that_add_up_to_all_cases(drawn):
-    table, _ = tables.FROM_TABLES["failures"]
+    (table,) = tables.FROM_TABLES["failures"]
     by_method, by_group = drawn["failures"].axes[:2]
     for axes, column in ((by_method, "method"), (by_group, "group")):
         widths = np.array([patch.get_width() for patch in axes.patches]).reshape(-1, 5)
@@ -201,11 +196,9 @@ def test_bars_of_failures_are_shares_that_add_up_to_all_cases(drawn):
 
 
 def test_silent_failures_are_counted_in_the_title_and_at_their_bar():
-    table, knobs = tables.FROM_TABLES["failures"]
+    (table,) = tables.FROM_TABLES["failures"]
     place = table.query("method == 'events'").index[:2]
-    axes = plot(
-        "failures", table.assign(verdict=table["verdict"].mask(table.index.isin(place), "unnoticed")), knobs
-    ).axes[0]
+    axes = plot("failures", table.assign(verdict=table["verdict"].mask(table.index.isin(place), "unnoticed"))).axes[0]
     assert axes.get_title() == f"(a) 2 of {len(table)} results are silently wrong"
     numbers = [text.get_text() for text in axes.texts if text.get_text() != "silent"]
     assert numbers.count("2") == 1

@@ -35,6 +35,5 @@ from viscorough.viscous.estimate import estimate as estimate
 from viscorough.viscous.identification import identify_medium as identify_medium
 from viscorough.viscous.integration.march import march as march
 from viscorough.viscous.kinetics import kinetics as kinetics
-from viscorough.viscous.pressures import pressure_at as pressure_at
 
 __version__: str

@@ -269,19 +269,6 @@ CALLS = {
             relaxation_time=0.5,
         ),
     ],
-    "pressure_at": [
-        call(
-            viscorough.pressure_at,
-            {
-                "force": (FORCES[0], "N"),
-                "time": (1.0, "s"),
-                "contacts": 4,
-                "tolerance": 0.0625,
-                "medium": (2.0**14, "Pa s"),
-            },
-            indenter=DISC,
-        )
-    ],
 }
 # Arguments without numbers that the calls do not need.
 OPTIONAL = {

@@ -14,7 +14,6 @@ from viscorough.io.datasets import read_dataset
 from viscorough.io.saving import Result
 from viscorough.media.identified_medium import IdentifiedMedium
 from viscorough.viscous.integration.events import newtonian_events
-from viscorough.viscous.integration.stepping import newtonian_steps
 
 DISC = viscorough.self_affine_disc(0.7, 9, rms=1e-8, diameter=1e-6, length_unit="m", seed=1)
 CURVE = viscorough.indent(DISC, until_fraction=1.0)
@@ -37,7 +36,6 @@ def results():
     yield viscorough.kinetics(CURVE, depth=[1e-9, 1e-9], medium=SOLID, times=[0.0, 1.0])
     yield viscorough.identify_medium(CURVE, FORCE, MOTION.time, MOTION.depth)
     yield newtonian_events(DISC)
-    yield newtonian_steps(DISC, [1e-16])
     for force in ([FORCE, FORCE], [FORCE, 0.1 * FORCE]):
         yield viscorough.march(DISC, viscorough.Load([0.0, 1.0], force=force), SOLID)
     held = viscorough.Load([0.0, 1.0], force=[FORCE, FORCE])
@@ -154,13 +152,6 @@ def test_a_load_is_a_force_or_a_depth():
             viscorough.Load([0.0, 1.0], **values)
     with refused("Load: depth: sample 1 is nan; allowed: finite"):
         viscorough.Load([0.0, 1.0], depth=[0.0, np.nan])
-
-
-@pytest.mark.parametrize("tolerance", [1.0, 1e-13])
-@pytest.mark.parametrize("scheme", ["explicit", "implicit"])
-def test_steps_accept_the_same_tolerances_as_contacts(scheme, tolerance):
-    with refused("time steps: tolerance"):
-        newtonian_steps(DISC, [1e-16], scheme=scheme, tolerance=tolerance)
 
 
 SAVED = [pytest.param(one, id=type(one).__name__) for one in results() if isinstance(one, Result)]

@@ -21,7 +21,6 @@ PATH = "path, at the depths"
 # Curves in (d), {method: (label, color, offset of the label from the first point of the curve [points])}.
 SOLVERS = {
     PATH: ("viscorough", style.BLUE, (-4, 5)),
-    "implicit": ("implicit steps", style.GREEN, (10, -3)),
     "explicit, logarithmic steps": ("explicit steps", style.PURPLE, (5, 2)),
 }
 # Task for which the times of several solvers are published, and the residual that every solver reached in this task.

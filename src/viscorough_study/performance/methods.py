@@ -17,7 +17,7 @@ from viscorough.contact.loading_path import indent
 from viscorough.mdr import reduce
 from viscorough.surfaces.self_affine import self_affine_line
 from viscorough.viscous.integration.events import newtonian_events
-from viscorough.viscous.integration.stepping import newtonian_steps
+from viscorough_study.performance.explicit_steps import explicit_steps
 
 
 @dataclass(frozen=True)
@@ -74,18 +74,9 @@ def _steps(problem, number):
     ends = np.geomspace(1e-4 * problem.force[0], problem.force[-1] * (1 + 1e-12), number)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AccuracyWarning)  # the error of too few steps is measured, too
-        steps = newtonian_steps(problem.indenter, ends, scheme="explicit")
+        steps = explicit_steps(problem.indenter, ends)
     resistance = np.exp(np.interp(np.log(problem.force), np.log(ends), np.log(steps.resistance)))
     return problem.force / resistance, steps.impulse.size
-
-
-def _implicit(problem, tolerance):
-    """Compute the velocities by backward Euler steps of the viscous problem.
-
-    The steps end at the impulses ∫F dt/η of the reference solution.
-    """
-    steps = newtonian_steps(problem.indenter, problem.force, scheme="implicit", tolerance=tolerance)
-    return problem.force / steps.resistance, steps.impulse.size
 
 
 # ---- approximate models
@@ -120,7 +111,6 @@ METHODS = (
     Method("path, at the depths", "path", "tolerance", FINE_TOLERANCES, _at_levels),
     Method("events", "marching", "contact fraction", (1.0,), _events, 65),
     Method("explicit, logarithmic steps", "marching", "steps", STEPS, _steps, 257),
-    Method("implicit", "marching", "tolerance", (1e-2, 1e-4, 1e-6, 1e-8), _implicit, 257),
     Method("MDR", "model", "points", tuple(2**n for n in range(6, 23, 2)), _reduction),
     Method("Eq. 12 without Γ", "model", "gamma", (0,), _law, rough_only=True),
     Method("Eq. 12 with Γ", "model", "gamma", (1,), _law, rough_only=True),

@@ -28,8 +28,8 @@ from viscorough.surfaces.indenter import Indenter
 from viscorough.surfaces.self_affine import self_affine_line
 from viscorough.viscous.integration.events import newtonian_events
 from viscorough.viscous.integration.march import march
-from viscorough.viscous.integration.stepping import newtonian_steps
 from viscorough.viscous.kinetics import kinetics
+from viscorough_study.performance.explicit_steps import explicit_steps
 
 DENSE_ONLY = SolverOptions(dense_contacts=10**9, dense_interactions=10**12)
 GRID_ONLY = SolverOptions(dense_contacts=0, dense_interactions=0)
@@ -143,7 +143,7 @@ def _steps(case, solution):
         times = np.linspace(0, samples[-1], case.steps)
         impulse = Load(times, force=np.interp(times, samples, case.force)).integral
         ends = solution.force[-1] * np.unique(impulse[impulse > 0]) / impulse[-1]
-    steps = newtonian_steps(case.indenter, np.union1d(ends, solution.force), scheme="explicit")
+    steps = explicit_steps(case.indenter, np.union1d(ends, solution.force))
     return steps.depth[np.searchsorted(steps.impulse, solution.force)] / solution.depth
 
 

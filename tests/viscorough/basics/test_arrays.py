@@ -9,7 +9,6 @@ import pytest
 
 from viscorough import Indenter, Load
 from viscorough.basics.arrays import fraction, positive, read_only, real_number, real_numbers, whole_number
-from viscorough.viscous.integration.stepping import newtonian_steps
 
 HILL = Indenter([[0.0, 1.0], [0.5, 0.2]], 1.0)
 
@@ -47,8 +46,6 @@ def test_masked_samples_of_a_force_are_refused():
         Load([0, 1, 2], force=masked)
     with pytest.raises(ValueError, match="time: allowed is one row of finite numbers"):
         Load(masked, force=[1, 2, 3])
-    with pytest.raises(ValueError, match="finite numbers"):
-        newtonian_steps(HILL, masked)
 
 
 WRONG = {

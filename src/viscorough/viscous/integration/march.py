@@ -26,22 +26,22 @@ def march(
 ) -> Motion:
     """Integrate the viscoelastic contact problem in time.
 
-    The integration never uses the loading curve, so it is an independent check of `kinetics`. Its cost grows with the
+    The method never uses the loading curve, so it serves as an independent check of `kinetics`. Its cost grows with the
     third power of the number of elements in contact; use it for maps of up to about 65 x 65 elements.
 
     Parameters
     ----------
     indenter : Indenter
-        Indenter with two-dimensional heights.
+        Map of heights. Only elements that come into contact add to the cost.
     load : Load
-        Depth [length] or force [N] as a function of time [s], linear between samples. It may decrease. In a medium with
-        a parallel dashpot (Newtonian, Kelvin-Voigt), a step of the depth must not press on the surface.
+        Depth [length] or force [N] over time [s], linear between samples. It may decrease. In a medium with a parallel
+        dashpot (Newtonian, Kelvin-Voigt), a step of the depth must not press on the surface.
     medium : Medium or float or str
-        Medium of springs and dashpots (no Springpot), or the viscosity of a Newtonian medium.
+        Springs and dashpots (no Springpot), or the viscosity of a Newtonian medium [Pa s].
     method : {"implicit", "events"}, optional
-        "implicit" makes one step from each sample of the load to the next, and solves a contact problem for the
-        pressures at the end of each step. Its error is of second order in the length of the steps. "events" proceeds
-        from contact event to contact event and is exact. It needs a load of a force, and a Newtonian medium.
+        "implicit" solves one contact problem in each step, from one sample of the load to the next, for the pressures
+        at its end. It is of second order in the time step. "events" proceeds from contact event to contact event. It is
+        exact on the grid, but allows only forces on a Newtonian medium, whose contact never recedes.
     until_fraction : float, optional
         Contact fraction up to which "events" follows the contact, in (0, 1]. The method needs 8 (until_fraction ·
         elements)² bytes of memory.
@@ -51,11 +51,11 @@ def march(
     Returns
     -------
     Motion
-        Motion at the samples of the load. An element comes into contact when it is pressed, and stays in contact until
-        its gap opens. Under no force the indenter rests on the surface. The previous contact then remains if all its
-        elements still touch, as in a Newtonian medium; otherwise no element counts as in contact. With the method
-        "implicit", the velocity is the mean in the step after each time, and `receding_from` is the end of a step. In
-        media with a parallel dashpot, "implicit" gives the force just before each time.
+        Time, depth, force, velocity and contact fraction at the samples of the load. An element stays in contact until
+        its gap opens. Under no force the indenter rests on the surface; elements then count as in contact only if the
+        whole previous contact still touches, as in a Newtonian medium. With "implicit", the velocity is the mean in the
+        step after each time, `receding_from` is the end of a step, and in media with a parallel dashpot the force is
+        the force just before each time.
 
     Raises
     ------

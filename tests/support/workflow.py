@@ -38,6 +38,7 @@ RULES = read_rules()
 TABLES = made_files(r"results/tables/(\w+)\.csv")  # {table: its rule}
 FIGURES = made_files(r"results/figures/(\w+)\.{format}")  # {file: its rule}
 HANGS = 3000  # seconds after which a run counts as hanging: ten times the longest run on a busy machine
+WATCH = Path(__file__).resolve().parent / "watch"  # modules that find undeclared files of jobs
 TARGETS = {name for name, text in RULES.items() if "    output:\n" not in text and "    script:\n" not in text}
 
 
@@ -94,7 +95,7 @@ def environment(folder, project=None):
     """
     project = project or (folder if (folder / "src").is_dir() else ROOT)
     kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
-    return kept | {"PYTHONPATH": str(project / "src")}
+    return kept | {"PYTHONPATH": os.pathsep.join([str(project / "src"), str(WATCH)])}
 
 
 # Every run is a fork of a process that has already loaded Snakemake and the imports of this project's packages. Jobs
@@ -166,8 +167,11 @@ def _run_snakemake(arguments, variables, folder, output, server):
 
 def _run_job(path, *surroundings):
     _enter(*surroundings)
+    watching = importlib.import_module("undeclared_files")
+    opened = watching.watch()
     try:
-        runpy.run_path(path, run_name="__main__")
+        names = runpy.run_path(path, run_name="__main__")
+        watching.write_undeclared(names["snakemake"], opened)
     except BaseException:
         sys.excepthook(*sys.exc_info())
         sys.exit(1)

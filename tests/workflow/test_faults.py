@@ -6,10 +6,11 @@ import shlex
 import subprocess
 import sys
 
+import netCDF4
 import pytest
 
 from support.faults import DAMAGES
-from support.workflow import ROOT, TEST, copy_project, environment, snakemake
+from support.workflow import ROOT, TEST, copy_project, environment, plan, snakemake
 
 TARGET = "results/ensembles/lines.nc"
 CURVES = "results/curves/lines/h04000/0000-0001.nc"
@@ -18,11 +19,12 @@ CURVES = "results/curves/lines/h04000/0000-0001.nc"
 def test_error_names_a_damaged_input_that_can_be_made_again(finished):
     curves = finished / CURVES
     whole = curves.read_bytes()
-    damaged = DAMAGES["second half zeros"](whole)
-    curves.write_bytes(damaged)
+    with netCDF4.Dataset(curves, "r+") as file:
+        file["depth"][0] *= 2
+    damaged = curves.read_bytes()
     output = snakemake(finished, *TEST, "--forcerun", "aggregate_curves", "--", TARGET, fails=True)
     message = re.search("ERROR (.*)", output)[1]
-    assert message.startswith(f"ValueError: {CURVES}: not readable (")
+    assert message.startswith(f"aggregate_curves, {TARGET}: ValueError: {CURVES}: not readable (")
     assert message.endswith("; remove the file, so that the next run makes it again")
     assert curves.read_bytes() == damaged
     assert not (finished / TARGET).exists()
@@ -30,6 +32,13 @@ def test_error_names_a_damaged_input_that_can_be_made_again(finished):
     snakemake(finished, *TEST, "--", TARGET)
     assert curves.read_bytes() == whole
     assert (finished / TARGET).exists()
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_file_without_a_readable_record_is_made_again(finished, damage):
+    curves = finished / CURVES
+    curves.write_bytes(DAMAGES[damage](curves.read_bytes()))
+    assert plan(finished, *TEST, "--", TARGET)["reduce_lines"] == 1
 
 
 def test_dry_run_keeps_the_lock_of_a_killed_run(tmp_path):

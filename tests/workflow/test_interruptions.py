@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 
+import psutil
 import pytest
 import xarray as xr
 
@@ -53,6 +54,19 @@ def batches(folder):
     return {path.stem: path.stat().st_mtime_ns for path in (folder / "results/curves/lines/h09000").glob("*.nc")}
 
 
+def finish(folder):
+    """Return the output of a run that ends by itself."""
+    with make(folder) as run:
+        output, _ = run.communicate(timeout=HANGS)
+    assert run.returncode == 0, output
+    return output
+
+
+def contents(folder):
+    """Return {file: its bytes} of all curves and pools."""
+    return {path.relative_to(folder): path.read_bytes() for path in (folder / "results").rglob("*.nc")}
+
+
 def make_until(folder, signal_number):
     """Return the output of a run that gets a signal while it makes a batch, after it has made another batch.
 
@@ -85,11 +99,38 @@ def test_run_continues_after_an_interrupt_and_a_kill(folder):
     assert list(locks.glob("*")), second
     killed = batches(folder)
     assert interrupted.items() < killed.items(), "what was made is kept, and one more was made"
-    with make(folder) as run:
-        third, _ = run.communicate(timeout=HANGS)
-    assert run.returncode == 0, third
-    assert third.count(GOES_ON) == 1
+    assert finish(folder).count(GOES_ON) == 1
     assert killed.items() <= batches(folder).items(), "what was made is kept"
     with xr.open_dataset(folder / POOL) as pool:
         assert pool.sizes["realization"] == 60
     assert not list((folder / "results").rglob("*.part"))
+    interrupted = contents(folder)
+    shutil.rmtree(folder / "results")
+    finish(folder)
+    assert contents(folder) == interrupted, "results of a run without interruptions"
+
+
+def test_job_that_outlives_its_run_keeps_the_lock(folder):
+    """Only the run is killed, as the system does when memory ends. The job would overwrite results of the next run."""
+    with make(folder) as run:
+        deadline = time.monotonic() + HANGS
+        while not list(folder.glob("results/logs/reduce_lines/h09000/*.log")):
+            assert time.monotonic() < deadline, "no job begins"
+            time.sleep(0.02)
+        children = psutil.Process(run.pid).children(recursive=True)
+        of_job = [child for child in children if ".snakemake/scripts/" in " ".join(child.cmdline())]
+        assert of_job
+        try:
+            for process in of_job:
+                process.suspend()
+            for process in {*children} - {*of_job}:
+                process.kill()
+            run.wait(HANGS)
+            with make(folder) as second:
+                output, _ = second.communicate(timeout=HANGS)
+            assert second.returncode != 0
+            assert "Directory cannot be locked" in output
+        finally:
+            for process in of_job:
+                process.kill()
+    assert finish(folder).count(GOES_ON) == 1

@@ -1,6 +1,8 @@
 """Which jobs rerun after a change of a setting or of a source."""
 
+import os
 import re
+import shutil
 
 import pytest
 import xarray as xr
@@ -139,6 +141,24 @@ def test_kept_surfaces_belong_to_the_curves(finished):
     assert plan(finished, *TEST) == {}
     planned = plan(finished, *TEST, settings_file(finished, "accurate", discs={"tolerance": 5e-3}))
     assert (planned["generate_discs"], planned["indent_surfaces"]) == (7, 8)  # one file of discs exists
+
+
+def test_lost_folder_of_snakemake_hides_no_changed_setting(finished_once, tmp_path):
+    """As if the results had been copied without this folder. The files themselves state their settings."""
+    folder = shutil.copytree(finished_once, tmp_path / "copy", ignore=shutil.ignore_patterns(".snakemake"))
+    assert plan(folder, *TEST) == {}
+    changed = settings_file(tmp_path, "changed", scaling={"stiffness_range": [0.04, 0.2]})
+    assert plan(folder, *TEST, changed) == plan(finished_once, *TEST, changed) != {}
+
+
+def test_file_of_another_run_is_made_again(finished):
+    """Such as a table that a job of a killed run wrote after the run that followed."""
+    table = finished / "results/tables/direct.csv"
+    header, csv = table.read_text().split("\n", 1)
+    time = table.stat()
+    table.write_text(header.replace('"seed": 2013', '"seed": 1') + f"\n{csv}")
+    os.utime(table, ns=(time.st_atime_ns, time.st_mtime_ns))
+    assert "compare_direct" in plan(finished, *TEST)
 
 
 def test_comments_rerun_nothing(editable):

@@ -16,6 +16,7 @@ from functools import cache
 from pathlib import Path
 
 import yaml
+from snakemake import persistence
 from snakemake.io import apply_wildcards, get_wildcard_names
 
 # Folder of this workflow, found from this file: a workflow that uses this workflow as a module is in another folder.
@@ -104,6 +105,7 @@ try:
     from viscorough.io.atomic import path_named
     from viscorough_study.run import cases
     from viscorough_study.run.kernels import KERNELS_BENCHMARK, compile_once
+    from viscorough_study.run.made_with import difference, origin
     from viscorough_study.run.paper_data import read_paper, read_records
     from viscorough_study.run.scans import scans
     from viscorough_study.run.settings import changed_settings, complete_settings, path_shown, source_of
@@ -119,9 +121,45 @@ except ModuleNotFoundError as error:  # also raised if a package has no metadata
 # before all rules are read, so the options are read here. A dry run must not change anything.
 DRY_RUN = any(re.fullmatch("--dry-?run|-[a-zA-Z]*n[a-zA-Z]*", word) for word in sys.argv[1:])
 if workflow.is_main_process and not DRY_RUN:
-    remove_stale_locks()
+    try:
+        remove_stale_locks(unlock="--unlock" in sys.argv)
+    except ValueError as error:
+        end_run(error)
 
 SOURCES = SourceDigests(Path(importlib.util.find_spec("viscorough").origin).parents[1], ".snakemake/sources.json")
+
+
+# ---- records
+
+
+def compare_with_records():
+    """Let Snakemake make a result again if the record in its file differs from the job that would make it.
+
+    Snakemake's own records, in .snakemake, are lost if results are copied without this folder; Snakemake would then keep
+    results of other settings. They also say nothing about files that were replaced later.
+    """
+    # Not documented: the class that compares a job with Snakemake's records, and its methods.
+    known = getattr(persistence, "PersistenceBase", None) or persistence.Persistence
+    has_metadata, params_changed = known.has_metadata, known.params_changed
+
+    def is_own(job):
+        return Path(job.rule.basedir).is_relative_to(WORKFLOW)
+
+    def changed(self, job, file=None):
+        changes = params_changed(self, job, file)
+        expected = origin(job.rule.name, job.input, dict(job.params.items()))
+        for path in (job.output if file is None else [file]) if is_own(job) else ():
+            if Path(path).suffix != ".md" and os.path.exists(path) and (texts := difference(path, expected)):
+                before, now = ({text} for text in texts)
+                changes = changes | persistence.ParamsChange(only_old=before, only_new=now, files={path})
+        return changes
+
+    known.has_metadata = lambda self, job: is_own(job) or has_metadata(self, job)
+    known.params_changed = changed
+
+
+if workflow.is_main_process:
+    compare_with_records()
 
 
 # ---- settings

@@ -5,6 +5,7 @@ from viscorough.io.datasets import write_dataset
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.ensembles.pool import pool_batches
 from viscorough_study.run.job_log import run_job
+from viscorough_study.run.made_with import made_with_text
 
 
 def main(curves, pool, *, groups, conventions, ensemble):
@@ -16,7 +17,7 @@ def main(curves, pool, *, groups, conventions, ensemble):
     """
     x = abscissa(ensemble["x_low"], ensemble["x_high"], ensemble["per_decade"])
     batches = zip(groups, map(netcdf.read, curves), strict=True)
-    write_dataset(pool_batches(batches, conventions, x), pool)
+    write_dataset(pool_batches(batches, conventions, x).assign_attrs(made_with_text()), pool)
 
 
 run_job(globals(), main)

@@ -4,6 +4,7 @@ from viscorough_study.ensembles.batches import Realization, without_numbers
 from viscorough_study.ensembles.discs import ensemble_disc
 from viscorough_study.ensembles.surface_files import write_surfaces
 from viscorough_study.run.job_log import run_job
+from viscorough_study.run.made_with import made_with_text
 from viscorough_study.run.seeds import realization_seed
 
 
@@ -22,7 +23,9 @@ def main(surfaces, *, ensembles, seed):
 
     settings = [{"seed": seed} | ensemble for ensemble in without_numbers(ensembles)]
     sizes = [len(range(*ensemble["numbers"])) for ensemble in ensembles]
-    write_surfaces(zip(settings, sizes, (discs(**ensemble) for ensemble in ensembles), strict=True), surfaces)
+    write_surfaces(
+        zip(settings, sizes, (discs(**ensemble) for ensemble in ensembles), strict=True), surfaces, **made_with_text()
+    )
 
 
 run_job(globals(), main)

@@ -3,6 +3,7 @@
 from viscorough.io import netcdf
 from viscorough_study.ensembles.nested_grids import nested_curves
 from viscorough_study.run.job_log import run_job
+from viscorough_study.run.made_with import made_with_text
 
 
 def main(curves, *, case, tolerance, seed):
@@ -11,7 +12,8 @@ def main(curves, *, case, tolerance, seed):
     curves : file to write; case : arguments of `nested_curves`, from `run.cases.nested_cases`
     tolerance, seed : further arguments of `nested_curves`
     """
-    netcdf.write(nested_curves(**case, tolerance=tolerance, seed=seed), curves)
+    content = nested_curves(**case, tolerance=tolerance, seed=seed)
+    netcdf.write(content.with_attributes(**made_with_text()), curves)
 
 
 run_job(globals(), main)

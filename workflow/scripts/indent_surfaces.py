@@ -8,6 +8,7 @@ from viscorough_study.ensembles.batches import batch_of_curves
 from viscorough_study.ensembles.indentation import indent_realization
 from viscorough_study.ensembles.surface_files import read_surfaces
 from viscorough_study.run.job_log import run_job
+from viscorough_study.run.made_with import made_with_text
 
 
 def main(surfaces, curves, *, indentation):
@@ -26,7 +27,7 @@ def main(surfaces, curves, *, indentation):
         if ensemble not in ensembles:
             ensembles.append(ensemble)
     settings = {"indentation": indentation, "ensembles": ensembles}
-    netcdf.write(batch_of_curves(members, settings), curves)
+    netcdf.write(batch_of_curves(members, settings).with_attributes(**made_with_text()), curves)
 
 
 run_job(globals(), main)

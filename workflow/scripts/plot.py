@@ -2,7 +2,7 @@
 
 from importlib import import_module
 
-from viscorough_study.figures.style import save_figure
+from viscorough_study.figures.style import remove_outdated_pdf, save_figure
 from viscorough_study.run.job_log import run_job
 from viscorough_study.run.tables import read_table
 
@@ -26,6 +26,7 @@ def main(path, *, figure, options=None, **files):
     plot = getattr(import_module(f"viscorough_study.figures.{figure}"), f"plot_{figure}")
     data = {argument: read(argument, file) for argument, file in files.items()}
     save_figure(plot(**data, **(options or {})), path)
+    remove_outdated_pdf(path, files.values())
 
 
 run_job(globals(), main)

@@ -6,6 +6,7 @@ from viscorough_study.ensembles.batches import Realization
 from viscorough_study.ensembles.measured import lengths, measured_indenter
 from viscorough_study.ensembles.surface_files import write_surfaces
 from viscorough_study.run.job_log import run_job
+from viscorough_study.run.made_with import made_with_text
 
 
 def main(heights, surfaces, *, name, group, **reading):
@@ -21,7 +22,7 @@ def main(heights, surfaces, *, name, group, **reading):
     settings = {"name": name, "group": group, "file": str(heights), **reading, "lengths": measured}
     rms = {"disc": measured["rms"]}
     realization = Realization(name, 0, float("nan"), measured["diameter"], indenter.spacing, rms)
-    write_surfaces([(settings, 1, [(realization, indenter)])], surfaces)
+    write_surfaces([(settings, 1, [(realization, indenter)])], surfaces, **made_with_text())
 
 
 run_job(globals(), main)

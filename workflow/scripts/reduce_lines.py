@@ -5,6 +5,7 @@ from viscorough.mdr import reduce_heights
 from viscorough.surfaces.lines import SelfAffineLines
 from viscorough_study.ensembles.batches import Realization, batch_of_curves, without_numbers
 from viscorough_study.run.job_log import run_job
+from viscorough_study.run.made_with import made_with_text
 from viscorough_study.run.seeds import realization_seed
 
 
@@ -26,7 +27,7 @@ def main(curves, *, ensembles, seed, until_x):
             curve = reduce_heights(heights, lines.spacing, until_force=until_force)
             members.append((curve, Realization(ensemble["name"], number, surface["hurst"], *lengths), until_x))
     settings = {"seed": seed, "until_x": until_x, "ensembles": without_numbers(ensembles)}
-    netcdf.write(batch_of_curves(members, settings), curves)
+    netcdf.write(batch_of_curves(members, settings).with_attributes(**made_with_text()), curves)
 
 
 run_job(globals(), main)

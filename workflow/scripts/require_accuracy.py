@@ -4,6 +4,7 @@ from pathlib import Path
 
 from viscorough_study.comparisons.validation import failures
 from viscorough_study.run.job_log import run_job
+from viscorough_study.run.made_with import text_line
 from viscorough_study.run.tables import read_table
 
 
@@ -19,7 +20,7 @@ def main(table, passed, *, order_margin):
         allowed = "validation.limits and validation.order_margin of the settings state what is allowed"
         raise ValueError(f"validation failed, see {table}: {'; '.join(failed)}; {allowed}")
     names = (comparisons["case"] + " " + comparisons["quantity"]).unique()
-    Path(passed).write_text("\n".join(names) + "\n", encoding="utf-8")
+    Path(passed).write_text(text_line() + "\n".join(names) + "\n", encoding="utf-8")
 
 
 run_job(globals(), main)

@@ -10,16 +10,18 @@ from viscorough.surfaces.indenter import Indenter
 from viscorough_study.ensembles.batches import RMS, Realization
 
 
-def write_surfaces(ensembles, path):
+def write_surfaces(ensembles, path, **attributes):
     """Write surfaces to a NetCDF file, atomically; only one surface at a time is in memory.
 
     ensembles : list of tuples (settings, number, surfaces), one for each ensemble: its settings as a dict, the number
         of realizations, and an iterable of (Realization, Indenter). Surfaces of an ensemble may differ only in number,
         heights and rms heights.
+    attributes : further global attributes of the file
     """
     with netcdf.written_with_digest(path) as temporary, netCDF4.Dataset(temporary, "w") as file:
         file.set_fill_off()  # no fill values are needed, since every value is written
-        file.setncatts({"title": "Heights of rigid indenters; larger is higher"} | netcdf.global_attributes())
+        title = {"title": "Heights of rigid indenters; larger is higher"}
+        file.setncatts(title | attributes | netcdf.global_attributes())
         for position, (settings, number, surfaces) in enumerate(ensembles):
             group = file.createGroup(f"ensemble_{position}")
             group.createDimension("realization", number)

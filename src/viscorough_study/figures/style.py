@@ -11,15 +11,17 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from matplotlib import rc_context
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator
+from matplotlib.style import context
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 from PIL import Image  # matplotlib depends on Pillow, so it is installed
+from PIL.PngImagePlugin import PngInfo
 
 from viscorough.io.atomic import atomic_write
 from viscorough_study.run.hurst_colors import hurst_color
+from viscorough_study.run.made_with import NAME, made_with, made_with_text, read_record
 from viscorough_study.run.readable import readable
 
 MM = 1 / 25.4
@@ -50,8 +52,12 @@ STYLE = {
     "axes.labelsize": 8,
     "figure.labelsize": 8,
     "axes.linewidth": 0.6,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
+    "xtick.direction": "in",
+    "ytick.direction": "in",
+    "xtick.top": True,
+    "ytick.right": True,
+    "xtick.minor.visible": True,
+    "ytick.minor.visible": True,
     "lines.linewidth": 1.0,
     "lines.markersize": 4,
     "errorbar.capsize": 2,
@@ -63,7 +69,8 @@ STYLE = {
 }
 
 
-in_style = rc_context(STYLE)
+# A file matplotlibrc of the user, which would change figures unseen, is ignored.
+in_style = context(["default", STYLE])
 
 
 def figure(plot):
@@ -80,7 +87,8 @@ def figure(plot):
             return _without_data()
         drawn = plot(*arguments, **options)
         for axes in drawn.axes:
-            axes.minorticks_off()
+            # Turn off the labels of minor ticks. They are empty, but matplotlib would measure each label.
+            axes.tick_params(which="minor", labelbottom=False, labelleft=False)
             for axis in (axes.xaxis, axes.yaxis):
                 if axis.get_scale() == "log" and not isinstance(axis.get_major_locator(), FixedLocator):
                     _set_ticks(axis)
@@ -134,7 +142,8 @@ def new_panels(count, columns, height, rest, *, xlabel="", ylabel="", **sharing)
 def save_figure(figure, *paths):
     """Write a figure to files; the suffix of each path (.png or .pdf) determines the format of the file.
 
-    Files are written atomically, and the same figure gives the same bytes. Raises ValueError for another suffix, and
+    Files are written atomically and state the record of the job (run.made_with). The same figure gives the same bytes.
+    Raises ValueError for another suffix, and
     for a path that cannot be written.
     """
     for path in paths:
@@ -147,11 +156,24 @@ def save_figure(figure, *paths):
         figure.set_layout_engine("none")
 
 
+def remove_outdated_pdf(path, inputs):
+    """Remove the PDF file of a figure if its PNG file `path` was made again, since only a request makes a PDF file.
+
+    A PDF file with the record of this job is kept if it is newer than the inputs of the figure: both files were then
+    requested at the same time.
+    """
+    pdf, own = Path(path).with_suffix(".pdf"), made_with()
+    if Path(path) != pdf and pdf.is_file():
+        is_newer = all(pdf.stat().st_mtime_ns > Path(file).stat().st_mtime_ns for file in inputs)
+        if not (is_newer and own and read_record(pdf) == own[NAME]):
+            pdf.unlink()
+
+
 def _write_pdf(figure, path):
     from matplotlib.backends.backend_pdf import FigureCanvasPdf  # this import takes long, and PDF files are rare
 
     # Figure.savefig is not used, because it would draw everything twice.
-    FigureCanvasPdf(figure).print_pdf(path, metadata={"CreationDate": None})
+    FigureCanvasPdf(figure).print_pdf(path, metadata={"CreationDate": None, "Subject": made_with_text().get(NAME)})
 
 
 def _write_png(figure, path):
@@ -165,7 +187,10 @@ def _write_png(figure, path):
     picture = Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3])
     if not any(axes.images for axes in figure.axes):
         picture = picture.quantize(256, dither=Image.Dither.NONE)
-    picture.save(path, format="png", dpi=(DPI, DPI), optimize=True)
+    texts = PngInfo()
+    for name, text in made_with_text().items():
+        texts.add_text(name, text)
+    picture.save(path, format="png", dpi=(DPI, DPI), optimize=True, pnginfo=texts)
 
 
 _WRITERS = {".png": _write_png, ".pdf": _write_pdf}
@@ -235,12 +260,15 @@ def mark_with_interval(axes, x, y, interval, look, along="y"):
 def _set_ticks(axis):
     """Set the ticks of a logarithmic axis.
 
-    Ticks are at decades, and on an axis of few decades also at 2 and 5 times each decade. An axis of less than one
-    decade has evenly spaced ticks. There are no minor ticks.
+    Major ticks are at decades. An axis of few decades also has major ticks at 2 and 5 times each decade. An axis of
+    less than one decade has evenly spaced major ticks. If not every decade has a major tick, minor ticks mark the other
+    decades; otherwise minor ticks divide the decades.
     """
     decades = np.ptp(np.log10(axis.get_view_interval()))
     axis.set_major_locator(LogLocator(numticks=9))
+    axis.set_minor_locator(LogLocator(subs=(1.0,) if decades > 8 else np.arange(2, 10), numticks=200))
     if decades < FEW_DECADES:
         evenly = MaxNLocator(6, steps=(1, 2, 5, 10))
         axis.set_major_locator(evenly if decades < 1 else LogLocator(subs=(1.0, 2.0, 5.0), numticks=20))
         axis.set_major_formatter(FuncFormatter(lambda value, _: readable(value)))
+    axis.set_minor_formatter(NullFormatter())

@@ -11,6 +11,7 @@ from viscorough_study.page.discussion import QUANTITIES, discussion
 from viscorough_study.page.render import embedded_png, render
 from viscorough_study.page.results import read_published, read_results
 from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
+from viscorough_study.run.made_with import all_versions, read_record
 from viscorough_study.run.readable import readable
 from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.run.tables import split_table
@@ -85,7 +86,7 @@ def contents_of(project, discs, lines, *, tables, claims, numbers, made_by, chan
         "changed": {name: [content.as_yaml(value) for value in pair] for name, pair in changed.items()},
         "files": files,
         "costs": results.records("rule_costs"),
-        "versions": costs["made_with"]["versions"],
+        "versions": all_versions(map(read_record, [discs, lines, *tables.values()])),
         **{name: costs[name] for name in ("machine", "made")},
         "time": duration_text(results.tables["rule_costs"]["share_s"].sum()),
         "paper_time": numbers["boundary_elements"]["computing_time"]["value"],

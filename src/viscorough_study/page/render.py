@@ -98,5 +98,7 @@ def caption(text, conventions):
     """
     snakemake = {"params": {"options": {"conventions": conventions}}}
     text = jinja2.Template(text, undefined=jinja2.StrictUndefined).render(snakemake=snakemake)
-    parts = publish_parts(text, writer="html5", settings_overrides={"report_level": 2, "halt_level": 2})
+    # Files docutils.conf of the user, which would change captions unseen, are ignored.
+    options = {"report_level": 2, "halt_level": 2, "_disable_config": True}
+    parts = publish_parts(text, writer="html5", settings_overrides=options)
     return Markup(re.sub(r'<(tt|span) class="docutils literal">(.*?)</\1>', r"<code>\2</code>", parts["body"]))

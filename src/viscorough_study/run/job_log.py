@@ -7,6 +7,7 @@ import traceback
 
 from viscorough.basics.errors import ConvergenceError
 from viscorough_study.run.made_with import record_job
+from viscorough_study.run.stale_locks import mark_as_running
 
 
 def run_job(names, main):
@@ -19,7 +20,8 @@ def run_job(names, main):
         digest of the source code, which decides about reruns and is recorded.
     """
     if job := names.get("snakemake"):
-        log_to(job.log[0])
+        mark_as_running()
+        log_to(job.log[0], f"{job.rule}, {next(iter(job.output))}: ")
         record_job(job.rule, job.input, dict(job.params.items()))
         params = {name: value for name, value in job.params.items() if name != "source"}
         try:
@@ -35,11 +37,14 @@ def _names_a_damaged_result(error):
     return re.match(r"\S*results/(ensembles|curves|surfaces)/\S+: not readable", str(error)) is not None
 
 
-def log_to(path):
+def log_to(path, place=""):
     """Log messages, warnings and uncaught exceptions to stderr and to a file, which is overwritten.
 
     The traceback of an uncaught exception is written to both. For a ValueError or ConvergenceError it is only written
     to the file, since the message suffices on stderr. For an interrupt no traceback is written.
+
+    place : text before the message of an uncaught exception, which names the rule and the result. Snakemake itself
+        names only a line in a file of rules, which is the same line for all figures.
     """
     in_file, on_stderr = logging.FileHandler(path, mode="w", encoding="utf-8"), logging.StreamHandler()
     form = {"format": "%(asctime)s %(levelname)s %(message)s", "datefmt": "%Y-%m-%d %H:%M:%S"}
@@ -51,7 +56,7 @@ def log_to(path):
         if issubclass(kind, KeyboardInterrupt):
             logging.error("interrupted")
             return
-        logging.error("%s: %s", kind.__name__, " ".join(str(error).split()))
+        logging.error("%s%s: %s", place, kind.__name__, " ".join(str(error).split()))
         details = "".join(traceback.format_exception(kind, error, trace)).rstrip()
         record = logging.root.makeRecord("root", logging.ERROR, __file__, 0, details, (), None)
         in_file.handle(record)

@@ -1,9 +1,14 @@
 """Locks of killed runs are removed; locks of living runs are kept."""
 
+import errno
+import fcntl
 import os
 import subprocess
 import sys
 
+import pytest
+
+from support.contract import refused
 from viscorough_study.run.stale_locks import remove_stale_locks
 
 REMOVE = "from viscorough_study.run.stale_locks import remove_stale_locks; alive = remove_stale_locks(); "
@@ -28,6 +33,54 @@ def test_locks_are_kept_while_any_other_process_lives(tmp_path, monkeypatch, cap
     os.close(remove_stale_locks())
     assert not lock.exists()
     assert capfd.readouterr().err.count("\n") == 1
+
+
+JOB = """
+from types import SimpleNamespace
+from viscorough_study.run.job_log import run_job
+job = SimpleNamespace(log=["job.log"], rule="reduce_lines", input={}, output={"curves": "a.nc"}, params={})
+run_job({"snakemake": job}, lambda curves: (print(flush=True), input()))
+"""
+
+
+@pytest.mark.parametrize("has_imported", [True, False])
+def test_locks_are_kept_while_a_job_of_a_killed_run_lives(tmp_path, monkeypatch, capfd, has_imported):
+    """Otherwise the job would overwrite the results of the next run."""
+    monkeypatch.chdir(tmp_path)
+    lock, script = tmp_path / ".snakemake/locks/0.input.lock", tmp_path / ".snakemake/scripts/a.reduce_lines.py"
+    for path, text in ((lock, ""), (script, JOB if has_imported else "print(flush=True); input()")):
+        path.parent.mkdir(parents=True)
+        path.write_text(text)
+    os.close(os.open(".snakemake/alive", os.O_CREAT))
+    with subprocess.Popen([sys.executable, str(script)], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as job:
+        try:
+            job.stdout.readline()
+            os.close(remove_stale_locks())
+            assert lock.exists()
+            with refused(
+                rf"a job \(process {job.pid}\) still runs in this folder; wait until it has ended, or stop it"
+            ):
+                remove_stale_locks(unlock=True)
+        finally:
+            job.kill()
+    assert capfd.readouterr().err == ""
+    os.close(remove_stale_locks(unlock=True))
+    assert not lock.exists()
+
+
+def test_locks_that_cannot_be_judged_are_kept(tmp_path, monkeypatch):
+    """Some network file systems have no locks of the operating system."""
+    monkeypatch.chdir(tmp_path)
+    lock = tmp_path / ".snakemake/locks/0.input.lock"
+    lock.parent.mkdir(parents=True)
+    lock.touch()
+
+    def without_locks(*_):
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr(fcntl, "flock", without_locks)
+    assert remove_stale_locks() is None
+    assert lock.exists()
 
 
 def test_folder_that_cannot_be_made_is_no_error(tmp_path, monkeypatch):

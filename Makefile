@@ -40,7 +40,11 @@ endif
 MOVED := $(if $(wildcard .venv/lock-installed),$(shell grep -qsF "$$(pwd -P)/.venv/bin/python" .venv/bin/pip || echo moved))
 
 .PHONY: help environment environment-dev environment-slurm reproduce paper report check lint ready-to-test test test-all docs test-slurm bench \
+<<<<<<< HEAD
 	speed stability sizes law law-errors intervals large publish peers lock lock-dev lock-peers lock-slurm clean
+=======
+	speed stability sizes law law-errors large first-minutes outside fuzz faults seeds publish dist peers lock lock-dev lock-peers lock-slurm clean
+>>>>>>> 380c1d8c (Remove the identification of media and tables of J and psi)
 
 help:
 	@echo "make reproduce     the default reproduction, with the page results/index.html"
@@ -153,9 +157,6 @@ sizes: environment
 
 law: environment
 	PYTHONPATH=benchmarks $(BIN)/python calibration/law.py --cores $(CORES) --output results/tables/law.csv
-
-intervals: environment
-	$(BIN)/python benchmarks/identification.py --cores $(CORES) --output results/tables/identification.csv
 
 law-errors: environment
 	PYTHONPATH=benchmarks $(BIN)/python calibration/law_errors.py --cores $(CORES) --output results/tables/law_errors.csv \

@@ -23,7 +23,6 @@ from viscorough.media.kinds import Prony as Prony
 from viscorough.media.kinds import Springpot as Springpot
 from viscorough.media.kinds import StandardLinearSolid as StandardLinearSolid
 from viscorough.media.load import Load as Load
-from viscorough.media.table import CreepTable as CreepTable
 from viscorough.results.contact_maps import Contact as Contact
 from viscorough.results.loading_curve import LoadingCurve as LoadingCurve
 from viscorough.results.motion import Motion as Motion
@@ -32,7 +31,6 @@ from viscorough.surfaces.preparation import prepare as prepare
 from viscorough.surfaces.self_affine import self_affine_disc as self_affine_disc
 from viscorough.surfaces.self_affine import self_affine_line as self_affine_line
 from viscorough.viscous.estimate import estimate as estimate
-from viscorough.viscous.identification import identify_medium as identify_medium
 from viscorough.viscous.integration.march import march as march
 from viscorough.viscous.kinetics import kinetics as kinetics
 

@@ -8,7 +8,6 @@ import pytest
 
 import viscorough
 from viscorough import mdr, reference
-from viscorough.media.identified_medium import IdentifiedMedium
 from viscorough.media.medium import Medium
 from viscorough.surfaces import self_affine
 
@@ -17,10 +16,7 @@ FORMULAS.append("one_element_stiffness")  # of elasticity, for the law as well
 PUBLIC = {name: getattr(viscorough, name) for name in viscorough.__all__ if name != "reference"}
 PUBLIC |= {f"reference.{name}": getattr(reference, name) for name in FORMULAS if not name.startswith("_")}
 # The documentation names these with their modules.
-PUBLIC |= {
-    item.__name__: item
-    for item in (IdentifiedMedium, Medium, mdr.line_of_map, mdr.line_of_surface, self_affine.cut_disc)
-}
+PUBLIC |= {item.__name__: item for item in (Medium, mdr.line_of_map, mdr.line_of_surface, self_affine.cut_disc)}
 
 
 @pytest.mark.parametrize("name", PUBLIC)

@@ -15,7 +15,6 @@ import viscorough
 from support.contract import refused
 from viscorough import reference
 from viscorough.mdr import line_of_map, line_of_surface
-from viscorough.media.identified_medium import IdentifiedMedium
 from viscorough.surfaces.self_affine import cut_disc
 from viscorough.viscous.integration.events import newtonian_events
 
@@ -27,9 +26,6 @@ LINE = viscorough.Indenter(HEIGHTS[0], 8.0, length_unit="um")
 CURVE = viscorough.indent(DISC, until_fraction=1.0)
 SOLID = viscorough.StandardLinearSolid(2.0**16, 2.0**14, 0.5)
 FORCES = [2.0**-24, 2.0**-23]  # N; with moduli of 10 kPa, F/G is some µm²
-RECORD = viscorough.kinetics(CURVE, FORCES[0], SOLID, np.arange(1.0, 7.0))
-DEPTHS = RECORD.depth.astype(np.float16).tolist()
-POINTS = [0.0, 0.5, 1.0, 2.0, 4.0]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -175,15 +171,6 @@ CALLS = {
         ),
         call(viscorough.Indenter, {"spacing": ([1.0, 2.0], LENGTH)}, heights=HEIGHTS, length_unit="um"),
     ],
-    "IdentifiedMedium": [
-        call(
-            IdentifiedMedium,
-            {"time": [0.0, 1.0], "compliance": [0.5, 1.0], "low": [0.5, 0.5], "high": [1.0, 1.0], "scatter": 0.5}
-            | {"relaxation_modulus": [2.0, 1.0], "misfit": 0.25, "offset": 0.5, "offset_interval": [0.25, 0.75]}
-            | {"drift": 0.5, "drift_interval": [0.25, 0.75], "assumed_offset": 0.5, "offset_effect": 0.125},
-            medium=SOLID,
-        )
-    ],
     "penetration_law": [call(viscorough.penetration_law, {"hurst": 0.5})],
     "estimate": [
         call(
@@ -222,14 +209,6 @@ CALLS = {
             medium=SOLID,
         ),
     ],
-    "identify_medium": [
-        call(
-            viscorough.identify_medium,
-            {"load": (FORCES[0], "N"), "times": (RECORD.time.tolist(), "s"), "measured": (DEPTHS, LENGTH)}
-            | {"scatter": (2.0**-10, LENGTH)},
-            curve=CURVE,
-        )
-    ],
     "march": [
         call(
             viscorough.march,
@@ -239,7 +218,6 @@ CALLS = {
             method="events",
         )
     ],
-    "CreepTable": [call(viscorough.CreepTable, {"times": (POINTS, "s"), "compliances": (POINTS, "1/Pa")})],
     "KelvinVoigt": spring_and_dashpot(viscorough.KelvinVoigt),
     "Maxwell": spring_and_dashpot(viscorough.Maxwell),
     "Newtonian": [call(viscorough.Newtonian, {"viscosity": (4.0, "Pa s")})],
@@ -274,13 +252,13 @@ CALLS = {
 OPTIONAL = {
     *("progress", "options", "precision", "padding", "length_unit", "corners", "amplitudes", "rms_over", "dtype"),
     *("detrend", "fill", "flip", "kind", "scheme", "medium", "method", "load", "estimate_grid_error"),
-    *("fit_offset", "fit_drift", "column_positions", "row_positions"),
+    *("column_positions", "row_positions"),
 }
 # Public names without numbers among their arguments, and functions of files (test_heights.py covers their numbers).
 WITHOUT_NUMBERS = {"AccuracyWarning", "ConvergenceError", "reference", "read_medium"}
 WITHOUT_NUMBERS |= {"load_curve", "save", "plot", "read_heights", "read_line", "read_load", "to_dataset"}
 # Functions and results that are imported from their modules.
-IN_MODULES = {"IdentifiedMedium", "cut_disc", "line_of_map", "line_of_surface"}
+IN_MODULES = {"cut_disc", "line_of_map", "line_of_surface"}
 METHODS = {
     "at_force": call(CURVE.at_force, {"force": ([0.5, 1.0], AREA)}),
     "at_depth": call(CURVE.at_depth, {"depth": ([0.5, 1.0], LENGTH)}),
@@ -388,10 +366,8 @@ def test_arguments_refuse_complex_numbers_and_nan_in_one_line(each, name):
 
 def nan_is_allowed(each, name):
     """Return True if nan has a meaning for this argument."""
-    # Points outside a map, unknown values, marks of missing points, and forces beyond a curve.
-    may_be_nan = {"nodata", "heights", "pressure", "gap", "compliance", "low", "high", "time", "scatter", "misfit"}
-    may_be_nan |= {"relaxation_modulus", "offset", "offset_interval", "drift", "drift_interval"}
-    may_be_nan |= {"assumed_offset", "offset_effect"}
+    # Points outside a map, marks of missing points, and forces beyond a curve.
+    may_be_nan = {"nodata", "heights", "pressure", "gap"}
     # A formula of nan is nan. A motion has nan where the curve is undetermined.
     at_curve = each in (METHODS["at_force"], METHODS["at_depth"])
     return name in may_be_nan or at_curve or each.function in (*FORMULAS, viscorough.Motion)
@@ -449,8 +425,6 @@ NO_MEDIA = [[1.0], np.array([1.0, 2.0]), None, True, 1j, CURVE, 10**400]
     ("name", "wrong"), [(WITH_MEDIUM[0], wrong) for wrong in NO_MEDIA] + [(name, "abc") for name in WITH_MEDIUM]
 )
 def test_wrong_media_are_refused(name, wrong):
-    if name == "IdentifiedMedium":
-        return
     with pytest.raises((TypeError, ValueError)) as error:
         CALLS[name][0].result(medium=wrong)
     one_line(error.value)

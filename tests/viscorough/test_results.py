@@ -12,7 +12,6 @@ from support.contract import refused
 from viscorough.basics.arrays import ReadOnlyArrays
 from viscorough.io.datasets import read_dataset
 from viscorough.io.saving import Result
-from viscorough.media.identified_medium import IdentifiedMedium
 from viscorough.viscous.integration.events import newtonian_events
 
 DISC = viscorough.self_affine_disc(0.7, 9, rms=1e-8, diameter=1e-6, length_unit="m", seed=1)
@@ -20,7 +19,6 @@ CURVE = viscorough.indent(DISC, until_fraction=1.0)
 SOLID = viscorough.StandardLinearSolid(4e6, 1e6, 0.5)
 FORCE = 2e-8
 TIMES = np.arange(1.0, 7.0)
-MOTION = viscorough.kinetics(CURVE, FORCE, SOLID, TIMES)
 
 
 def results():
@@ -34,14 +32,12 @@ def results():
     yield viscorough.Load([0.0, 1.0], force=[1.0, 2.0])
     yield viscorough.Load([0.0, 1.0], depth=[1e-9, 1e-9])
     yield viscorough.kinetics(CURVE, depth=[1e-9, 1e-9], medium=SOLID, times=[0.0, 1.0])
-    yield viscorough.identify_medium(CURVE, FORCE, MOTION.time, MOTION.depth)
     yield newtonian_events(DISC)
     for force in ([FORCE, FORCE], [FORCE, 0.1 * FORCE]):
         yield viscorough.march(DISC, viscorough.Load([0.0, 1.0], force=force), SOLID)
     held = viscorough.Load([0.0, 1.0], force=[FORCE, FORCE])
     yield viscorough.march(DISC, held, 1.0, method="events")
     yield viscorough.estimate(0.7, 0.1, 1.0, 1.0, 1.0, [0.01, 0.1])
-    yield viscorough.CreepTable([0.0, 1.0], [0.0, 1.0])
 
 
 PAIRS = [pytest.param(*pair, id=type(pair[0]).__name__) for pair in zip(results(), results(), strict=True)]
@@ -167,18 +163,9 @@ def test_texts_of_results_are_short():
     short += [viscorough.Load(times, force=times), viscorough.Load(times, depth=times)]
     short += [viscorough.kinetics(curve, depth=0.5 * curve.depth[-1] * times / times[-1], medium=SOLID, times=times)]
     short += [viscorough.estimate(0.7, 0.1, 1.0, 1.0, 1.0, 0.01 * times)]
-    short += [viscorough.CreepTable(np.append(0, times), np.append(1, 1 + times))]
     for result in short:
         assert len(repr(result)) < 400, repr(result)
         assert "array(" not in repr(result)
-
-
-def test_text_of_a_medium_states_an_offset_with_its_interval():
-    found = viscorough.identify_medium(CURVE, FORCE, MOTION.time, MOTION.depth)
-    known = dataclasses.replace(found, offset=2e-9, offset_interval=np.array([1e-9, 3e-9]))
-    assert known.zero_of_depth == "offset of the depth 2e-09 m [1e-09, 3e-09]"
-    unknown = dataclasses.replace(known, offset_interval=np.full(2, np.nan))
-    assert unknown.zero_of_depth == "offset of the depth 2e-09 m"
 
 
 def test_text_of_options_shows_values_other_than_the_default():
@@ -191,18 +178,13 @@ def test_text_of_options_shows_values_other_than_the_default():
 @pytest.mark.parametrize("result", SAVED)
 def test_results_are_saved_drawn_and_converted(result, tmp_path):
     """The dataset has the variables, attributes and coordinates of the NetCDF file."""
-    medium = isinstance(result, IdentifiedMedium)
-    path = tmp_path / ("result.yaml" if medium else "result.nc")
+    path = tmp_path / "result.nc"
     viscorough.save(result, path)
     viscorough.plot(result, tmp_path / "figure.png")
     assert (tmp_path / "figure.png").stat().st_size > 1000
     dataset = viscorough.to_dataset(result)
-    if medium:
-        assert dataset["compliance"].values.tolist() == result.compliance.tolist()
-        assert dataset["low"].attrs["units"] == "1/Pa"
-    else:
-        written = read_dataset(path)
-        assert set(dataset.coords) == set(written.coords)
-        for name in dataset.attrs.keys() - {"history"}:
-            np.testing.assert_array_equal(dataset.attrs[name], written.attrs[name])
-        assert dataset.equals(written)
+    written = read_dataset(path)
+    assert set(dataset.coords) == set(written.coords)
+    for name in dataset.attrs.keys() - {"history"}:
+        np.testing.assert_array_equal(dataset.attrs[name], written.attrs[name])
+    assert dataset.equals(written)

@@ -50,7 +50,7 @@ def cli(context: click.Context) -> None:
         click.echo(context.get_help())
 
 
-for _name in ("indent", "contact", "kinetics", "creep", "march", "reduce", "generate", "estimate", "plot"):
+for _name in ("indent", "contact", "kinetics", "march", "reduce", "generate", "estimate", "plot"):
     cli.add_command(getattr(import_module(f"{__name__}.{_name}"), _name))
 
 

@@ -29,10 +29,6 @@ def check_output(output: Path, **inputs: Path | None) -> None:
     from viscorough.io import atomic
 
     atomic.check_output(output)
-    if (medium := inputs.get("medium")) and output.exists():
-        from viscorough.io.medium_files import creep_table_of
-
-        inputs["table of the medium"] = creep_table_of(medium)
     for kind, file in inputs.items():
         if file and output.exists() and file.exists() and output.samefile(file):
             raise ValueError(f"{output}: would replace the {kind.replace('_', ' ')}; another name is needed")

@@ -63,11 +63,9 @@ def kinetics(
 
     MEDIUM.yaml is one mapping with the kind of the medium and its parameters. The kinds are newtonian (viscosity),
     maxwell and kelvin_voigt (shear_modulus, viscosity), standard_linear_solid (instantaneous_modulus, relaxed_modulus,
-    relaxation_time), prony (relaxed_modulus, moduli, relaxation_times), springpot (modulus, exponent), creep_table
-    (file: name of a file with the columns time and compliance J) and relaxation_table (file: the columns time and
-    relaxation_modulus). A table may be noisy; springs and dashpots are fitted to it. Moduli are shear moduli. Young's
-    moduli E = 3 G may be given instead, as young_modulus, instantaneous_young_modulus, relaxed_young_modulus or
-    young_moduli; the key poisson may then state the Poisson ratio, by default 0.5.
+    relaxation_time), prony (relaxed_modulus, moduli, relaxation_times) and springpot (modulus, exponent). Moduli are
+    shear moduli. Young's moduli E = 3 G may be given instead, as young_modulus, instantaneous_young_modulus,
+    relaxed_young_modulus or young_moduli; the key poisson may then state the Poisson ratio, by default 0.5.
 
     If the unit of length of the curve is known, forces are in N, moduli in Pa and viscosities in Pa s. They may also
     have another unit, as in --viscosity "2 kPa s" or in the heading t [ms],F [mN] of a force history. If the unit of

@@ -1,4 +1,4 @@
-"""Draw results: surfaces, fields of a contact, loading curves, motions, estimates, compliances.
+"""Draw results: surfaces, fields of a contact, loading curves, motions, estimates.
 
 Only this module of the library imports matplotlib.
 """
@@ -46,8 +46,6 @@ _SYMBOLS = {
     "pressure": "p/G",
     "time": "t",
     "velocity": "v",
-    "compliance": "J",
-    "relaxation_modulus": r"\psi",
 }
 # Labels of axes: {name of the variable: label}.
 _LABELS = {name: f"{name.replace('_', ' ')} ${symbol}$" for name, symbol in _SYMBOLS.items()}
@@ -62,11 +60,11 @@ _AREAS = ("contact_area", "corrected_contact_area")
 
 
 def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
-    """Draw a result: heights, fields of a contact, a loading curve, a motion, an estimate, or a compliance.
+    """Draw a result: heights, fields of a contact, a loading curve, a motion, or an estimate.
 
     Parameters
     ----------
-    result : Content or Indenter or LoadingCurve or Contact or Motion or Estimate or IdentifiedMedium
+    result : Content or Indenter or LoadingCurve or Contact or Motion or Estimate
         Result of the library, or the io.netcdf.Content of a file. Needs matplotlib: pip install "viscorough[plot]".
     path : path, optional
         File to write atomically (.png, .pdf or .svg). The same result gives the same bytes. By default no file is
@@ -260,32 +258,6 @@ def _loop(variables: Variables) -> Figure:
     return figure
 
 
-def _compliance(variables: Variables) -> Figure:
-    figure, (panel,) = _panels(1)
-    _with_interval(panel, variables, "compliance")
-    return figure
-
-
-def _relaxation(variables: Variables) -> Figure:
-    figure, (modulus, compliance) = _panels(2)
-    _with_interval(modulus, variables, "relaxation_modulus")
-    after = variables["time"].values > 0  # logarithmic axes cannot show the time 0
-    _curve(compliance, variables["time"].values[after], variables["compliance"].values[after])
-    _label(compliance, variables, "time", "compliance", "compliance")
-    return figure
-
-
-def _with_interval(panel: Axes, variables: Variables, name: str) -> None:
-    """Draw compliance or relaxation modulus of a medium against time, with its 95 % interval, on logarithmic axes."""
-    time, values, low, high = (variables[key].values for key in ("time", name, "low", "high"))
-    after = (time > 0) & (values > 0)  # logarithmic axes show positive numbers only
-    least = values[after].min() / 10 if after.any() else 0.0
-    ends = np.maximum(low[after], least), np.minimum(high[after], 10 * values[after])
-    panel.fill_between(time[after], *ends, color=_BLUE, alpha=0.25, linewidth=0)
-    _curve(panel, time[after], values[after])
-    _label(panel, variables, "time", name, name.replace("_", " "))
-
-
 def _loading_curve(variables: Variables) -> Figure:
     dimensions = variables["depth"].values.ndim
     force, stiffness = (_with_modulus(variables, name) for name in ("force", "stiffness"))
@@ -348,8 +320,6 @@ _KINDS: tuple[tuple[Callable[[Variables], Figure], dict[str, tuple[str, ...]]], 
     (_fields, {"pressure": ("level", "y", "x"), **_XY}),
     (_surface, {"heights": ("y", "x"), **_XY}),
     (_surface, {"heights": ("x",), **_X}),
-    (_relaxation, dict.fromkeys(("time", "compliance", "relaxation_modulus", "low", "high"), ("level",))),
-    (_compliance, dict.fromkeys(("time", "compliance", "low", "high"), ("level",))),
     (_motion, {"time": ("level",), "depth": ("level",)}),
     (_loading_curve, {"depth": ("level",), "force": ("level",)}),
     (_loading_curve, {"depth": ("realization", "level"), "force": ("realization", "level")}),

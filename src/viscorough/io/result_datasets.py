@@ -13,7 +13,7 @@ def to_dataset(result: Result) -> xr.Dataset:
 
     Parameters
     ----------
-    result : Indenter, LoadingCurve, Contact, Motion, Estimate or IdentifiedMedium
+    result : Indenter, LoadingCurve, Contact, Motion or Estimate
         Result of the library.
 
     Returns

@@ -5,17 +5,15 @@ from viscorough.io import netcdf, tables
 from viscorough.io.contact_files import contacts_to_content
 from viscorough.io.curves import curve_from_content, curve_to_content
 from viscorough.io.heights import surface_to_content
-from viscorough.io.medium_files import identified_to_content, save_identified
 from viscorough.io.motion_files import estimate_to_content, motion_to_content
 from viscorough.io.suffixes import RESULTS, check_suffix
 from viscorough.law.estimate import Estimate
-from viscorough.media.identified_medium import IdentifiedMedium
 from viscorough.results.contact_maps import Contact
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.results.motion import Motion
 from viscorough.surfaces.indenter import Indenter
 
-Result = Indenter | LoadingCurve | Contact | Motion | Estimate | IdentifiedMedium
+Result = Indenter | LoadingCurve | Contact | Motion | Estimate
 WRITERS = {".nc": netcdf.write, ".csv": tables.write}
 
 
@@ -26,11 +24,11 @@ def save(result: Result, path: FilePath) -> None:
 
     Parameters
     ----------
-    result : Indenter, LoadingCurve, Contact, Motion, Estimate or IdentifiedMedium
-        Result of the library. `read_heights` reads heights, `load_curve` a curve and `read_medium` a medium again.
+    result : Indenter, LoadingCurve, Contact, Motion or Estimate
+        Result of the library. `read_heights` reads heights again, and `load_curve` a curve.
     path : path
         File to write or replace. The suffix .nc selects NetCDF; .csv selects a table and suits a curve, motion,
-        estimate or line; .yaml suits an identified medium, and a creep table is then written next to it (.csv).
+        estimate or line.
 
     Raises
     ------
@@ -50,10 +48,7 @@ def save(result: Result, path: FilePath) -> None:
     ...     sorted(os.listdir(folder))
     ['curve.csv', 'disc.nc']
     """
-    if isinstance(result, IdentifiedMedium):
-        save_identified(result, path)
-    else:
-        write_content(to_content(result), path)
+    write_content(to_content(result), path)
 
 
 def load_curve(path: FilePath) -> LoadingCurve:
@@ -100,11 +95,8 @@ def to_content(result: Result) -> netcdf.Content:
         return surface_to_content(result)
     if isinstance(result, Estimate):
         return estimate_to_content(result)
-    if isinstance(result, IdentifiedMedium):
-        return identified_to_content(result)
     raise TypeError(
-        f"{type(result).__name__} is no result; an Indenter, LoadingCurve, Contact, Motion, Estimate or "
-        "IdentifiedMedium is needed"
+        f"{type(result).__name__} is no result; an Indenter, LoadingCurve, Contact, Motion or Estimate is needed"
     )
 
 

@@ -11,7 +11,6 @@ if TYPE_CHECKING:  # importing `types` at run time would import numpy, which tak
 
 RESULTS = {".nc": "NetCDF", ".csv": "table"}
 MAPS = {".nc": "NetCDF"}
-MEDIA = {".yaml": "medium", ".yml": "medium"}
 FIGURES = {".png": "picture", ".pdf": "drawing", ".svg": "drawing"}
 
 

@@ -36,7 +36,6 @@ from viscorough.basics.types import Array, Scalar, Several
 from viscorough.media.load import Load
 from viscorough.media.medium import Medium, checked_times
 from viscorough.media.spectra import (
-    POWER_LAW_ERROR,
     RelaxationSpectrum,
     Spectrum,
     power_law_spectrum,
@@ -44,7 +43,6 @@ from viscorough.media.spectra import (
     spectrum_of,
 )
 from viscorough.media.springs_and_dashpots import SpringsAndDashpots
-from viscorough.media.table import CreepTable, RelaxationTable
 
 _NONE = np.array([])
 # SI unit of each parameter that may be given with a unit.
@@ -359,8 +357,8 @@ class Springpot(Medium):
         if np.isinf(1 / self.modulus):
             raise ValueError(f"Springpot: modulus {self.modulus:g}; allowed: numbers whose inverse is finite")
 
-    def spectrum(self, load: Load) -> tuple[Spectrum, float]:
-        """Return springs and dashpots with the same J to 1e-8 at the times of the load, and this misfit.
+    def spectrum(self, load: Load) -> Spectrum:
+        """Return springs and dashpots with the same J, within a relative error of 1e-8, at the times of the load.
 
         They creep like the springpot from the time s up to the duration of the load. The share s/T of the shortest
         interval T between two turns of the load satisfies (s/T)^(1+a) = _SHORTEST: before the time s, J errs by about
@@ -375,7 +373,7 @@ class Springpot(Medium):
             )
         shortest = load.shortest_interval * _SHORTEST ** (1 / (1 + self.exponent))
         retardation = power_law_spectrum(self.modulus, self.exponent, shortest, load.duration or 1.0)
-        return spectrum_of(relaxation_spectrum(retardation), retardation), POWER_LAW_ERROR
+        return spectrum_of(relaxation_spectrum(retardation), retardation)
 
     def creep_compliance(self, time: ArrayLike) -> Array:
         """Return the creep compliance J at times t ≥ 0, an array of any shape."""
@@ -397,7 +395,7 @@ class Springpot(Medium):
 
 
 # Media that have a name in MEDIUM.yaml: {value of the key `kind`: class}. The other keys of the file are the
-# parameters of the class. The numbers of a table are in a separate file, which the key `file` names.
+# parameters of the class.
 KINDS: dict[str, Any] = {
     "newtonian": Newtonian,
     "maxwell": Maxwell,
@@ -405,8 +403,6 @@ KINDS: dict[str, Any] = {
     "standard_linear_solid": StandardLinearSolid,
     "prony": Prony,
     "springpot": Springpot,
-    "creep_table": CreepTable,
-    "relaxation_table": RelaxationTable,
 }
 
 

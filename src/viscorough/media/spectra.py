@@ -21,8 +21,6 @@ _SLOW_ERROR = 100.0
 # Number of bisections of an interval that contains a zero. The first ten reduce the ratio of the ends of the interval
 # to 2. The others find the zero to rounding.
 _BISECTIONS = 80
-# Compliance of the spring and creep of the dashpot that `solvable` adds, see there.
-_STIFF_SPRING, _SLOW_DASHPOT = 1e-6, 1e-12
 # The upper bound of the largest relaxation rate is increased by this share, because of rounding.
 _MARGIN = 1e-9
 
@@ -159,7 +157,7 @@ def relaxation_spectrum(retardation: RetardationSpectrum) -> RelaxationSpectrum:
     """Return the RelaxationSpectrum of the same medium as a RetardationSpectrum.
 
     This is the inverse of `retardation_spectrum`. Without a spring (J₀ = 0), the medium must be Newtonian or
-    Kelvin-Voigt; with a spring, it needs a dashpot (φ > 0) or at least one element, see `solvable`. With the
+    Kelvin-Voigt; with a spring, it needs a dashpot (φ > 0) or at least one element. With the
     retardation rates λ_j = 1/θ_j, the relaxation rates r are the zeros of s Ĵ(s) = J₀ + φ/s + Σ J_j λ_j/(s + λ_j) at
     s = −r. One zero lies between every two neighbouring λ_j, and one above all λ_j. If φ > 0, a further zero lies below
     the smallest λ_j, and G∞ = 0. Otherwise G∞ = 1/(J₀ + Σ J_j). The moduli are
@@ -191,21 +189,6 @@ def relaxation_spectrum(retardation: RetardationSpectrum) -> RelaxationSpectrum:
     slopes = fluidity / rates + rates * (flows[:, None] / (from_decays - pole - distance) ** 2).sum(axis=0)
     relaxed = 0.0 if fluidity else 1 / (instantaneous + compliances.sum())
     return RelaxationSpectrum(0.0, relaxed, 1 / slopes, 1 / rates)
-
-
-def solvable(retardation: RetardationSpectrum, first: float, last: float) -> RetardationSpectrum:
-    """Return a RetardationSpectrum to which a spring or a dashpot of a negligible compliance is added, if necessary.
-
-    Motions are computed for media with a parallel dashpot (Newtonian, Kelvin-Voigt), or with Maxwell branches, but not
-    with both. A medium with both, which has J₀ = 0, gets a spring with _STIFF_SPRING of J(`first`). A single spring
-    gets a dashpot whose creep until `last` is _SLOW_DASHPOT of J₀.
-    """
-    instantaneous, fluidity, compliances, times = retardation
-    if instantaneous == 0 and times.size + (fluidity > 0) > 1:
-        instantaneous = _STIFF_SPRING * float(fluidity * first - (compliances * np.expm1(-first / times)).sum())
-    if fluidity == 0 and times.size == 0:
-        fluidity = _SLOW_DASHPOT * instantaneous / last
-    return RetardationSpectrum(instantaneous, fluidity, compliances, times)
 
 
 def power_law_spectrum(modulus: float, exponent: float, shortest: float, longest: float) -> RetardationSpectrum:

@@ -19,7 +19,7 @@ from viscorough.media.spectra import (
 
 
 class SpringsAndDashpots(Medium):
-    """Base class of media of springs and dashpots. They have the spectra `relaxation` and `retardation`."""
+    """Base class of media of springs and dashpots. They have the spectra `relaxation` and `retardation`; see Medium."""
 
     @property
     @abstractmethod
@@ -29,16 +29,20 @@ class SpringsAndDashpots(Medium):
     def retardation(self) -> RetardationSpectrum:
         return retardation_spectrum(self.relaxation)
 
-    def spectrum(self, load: Load) -> tuple[Spectrum, float]:
-        """Return the springs and dashpots of the medium, and a misfit of 0."""
-        return spectrum_of(self.relaxation, self.retardation), 0.0
+    def spectrum(self, load: Load) -> Spectrum:
+        """Return the springs and dashpots of the medium. They are the same for every load."""
+        return spectrum_of(self.relaxation, self.retardation)
 
     def creep_compliance(self, time: ArrayLike) -> Array:
-        """Return the creep compliance J at times t ≥ 0, an array of any shape. At time 0 this is J(0+)."""
+        """Return the creep compliance J at times t ≥ 0, an array of any shape.
+
+        At time 0 this is J(0+). At an infinite time it is 1/G∞ for a solid, and infinite for a medium that flows.
+        """
         time = checked_times(time)
         instantaneous, fluidity, compliances, times = self.retardation
         delayed = -(compliances * np.expm1(-np.divide.outer(time, times))).sum(axis=-1)
-        return instantaneous + np.multiply(fluidity, time) + delayed
+        flow = np.multiply(fluidity, time) if fluidity else 0.0  # without a dashpot, also at an infinite time
+        return instantaneous + flow + delayed
 
     def creep_rate(self, time: ArrayLike) -> Array:
         """Return dJ/dt at times t ≥ 0, an array of any shape."""

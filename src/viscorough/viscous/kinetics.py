@@ -50,8 +50,6 @@ _LATEST = 1e300
 # or always below the last level, the times begin or end when the response differs from its first or last value by the
 # share _EARLY of its range.
 _SPREAD, _EARLY = 100, 1e-3
-# A medium whose springs and dashpots miss its compliance by more than this share gives a warning.
-_REPORTED_MISFIT = 0.01
 # A motion that depends on the unknown curve before its first level gives a warning if the force at this level is more
 # than this share of the largest elastic force.
 _UNKNOWN_SHARE = 1e-2
@@ -112,8 +110,7 @@ def kinetics(
     Warns
     -----
     AccuracyWarning
-        If the motion depends on the curve before its first level, where the curve is taken to be a power law. Also if
-        the springs and dashpots that represent a table or a medium of a user miss its compliance by more than 1 %.
+        If the motion depends on the curve before its first level, where the curve is taken to be a power law.
 
     Examples
     --------
@@ -131,17 +128,12 @@ def kinetics(
     check_curve("kinetics", curve)
     medium = medium_of(medium, curve.length_unit)  # type: ignore[arg-type]  # None is refused
     load, place = _load_and_places(curve, medium, force, depth, times)
-    if (duration := load.time[-1] - load.time[0]) > medium.last_time:
-        name = _load_name("depth" if load.by_depth else "force") if times is None else argument("times")
-        allowed = f"allowed: up to the last time of the table, {medium.last_time:g}"
-        raise ValueError(f"{name}: up to {duration:g} after the beginning of the load; {allowed}")
     if load.by_depth:
         _check_depths(curve, load.values[: place[-1] + 1])
     row = row_of_springs(curve, load)
-    spectrum, misfit = medium.spectrum(load)
+    spectrum = medium.spectrum(load)
     moved = row_motion(curve, row, spectrum, load, int(place[-1]))
     _warn_of_the_beginning(curve, row, load, moved)
-    _warn_of_the_misfit(medium, misfit)
     refined = refine(curve, row, medium, spectrum, load, moved)
     receding_from = _receding_from(spectrum, load)
     if receding_from >= load.time[place[-1]]:
@@ -260,9 +252,6 @@ def _constant(curve: LoadingCurve, medium: Medium, name: str, value: float, time
         raise ValueError(
             f"{argument('times')}: start at {times[0]:g}; allowed: from 0 on, where a constant {name} begins"
         )
-    if times[-1] > medium.last_time:
-        allowed = f"allowed: up to the last time of the table, {medium.last_time:g}"
-        raise ValueError(f"{argument('times')}: up to {times[-1]:g}; {allowed}")
     samples = np.unique([0.0, times[-1]])
     return Load(samples, **{name: np.full(samples.size, value)}), times
 
@@ -274,9 +263,8 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
     when the creep reaches the last level or has almost ended. If the medium responds elastically at time 0, time 0
     precedes them.
     """
-    earliest, limit = medium.first_time, min(medium.last_time, _LATEST)
     with np.errstate(over="ignore"):
-        at_once, at_last = force * medium.creep_compliance(np.array([earliest, limit]))
+        at_once, at_last = force * medium.creep_compliance(np.array([0.0, _LATEST]))
     first, last = curve.force[0] if curve.force.size > 1 else _EARLY * curve.force[-1], curve.force[-1]
     if not (at_once < last and at_last > first):
         raise ValueError(
@@ -290,12 +278,11 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
     end = (1 - margin) * last if at_last >= last else at_last - _EARLY * (at_last - max(first, at_once))
     target = np.array([start, end]) / force
     with np.errstate(all="ignore"):
-        smallest = max(earliest, np.finfo(float).tiny)
-        ends = zero_of_increasing(lambda t: medium.creep_compliance(t) - target, smallest, limit)
+        ends = zero_of_increasing(lambda t: medium.creep_compliance(t) - target, np.finfo(float).tiny, _LATEST)
     if not (0 < ends[0] < ends[1] < _LATEST / 2):
         raise ValueError(f"the times from {ends[0]:g} to {ends[1]:g} overflow; closer force and medium are allowed")
     times = np.geomspace(ends[0], ends[1], _SPREAD)
-    springs = earliest == 0 and at_once > 0 and np.isfinite(curve.at_force(at_once)).all()
+    springs = at_once > 0 and np.isfinite(curve.at_force(at_once)).all()
     return np.append(0.0, times) if springs else times
 
 
@@ -335,17 +322,6 @@ def _refuse(curve: LoadingCurve, row: RowOfSprings, spectrum: Spectrum, load: Lo
         f"curve's last level; allowed: depths up to {curve.depth[-1]:g}; indent further, with "
         f"{argument('until_fraction', 1)}"
     )
-
-
-def _warn_of_the_misfit(medium: Medium, misfit: float) -> None:
-    """Warn if the springs and dashpots of a medium miss its compliance noticeably."""
-    if misfit > _REPORTED_MISFIT:
-        warnings.warn(
-            f"{caller('kinetics')}the motion is computed for springs and dashpots that miss the given "
-            f"{type(medium).__name__} by up to {100 * misfit:.2g} %, as after a fit of a table with noise",
-            AccuracyWarning,
-            stacklevel=3,
-        )
 
 
 def _warn_of_the_beginning(curve: LoadingCurve, row: RowOfSprings, load: Load, moved: RowMotion) -> None:

@@ -45,13 +45,9 @@ def refine(
     """
     stiff = spectrum.instantaneous > 0 and medium.creep_compliance(0.0) == 0
     refined = (_at_depth if load.by_depth else _under_force)(curve, row, spectrum, load, moved, stiff)
-    if stiff:
-        refined = (_after_steps_of_depth if load.by_depth else _after_steps_of_force)(medium, load, refined)
-    unknown = (load.time < load.time[0] + medium.first_time) & (refined.contact_fraction > 0)
-    if load.by_depth:
-        return refined._replace(force=np.where(unknown, np.nan, refined.force))
-    depth, velocity = (np.where(unknown, np.nan, values) for values in (refined.depth, refined.velocity))
-    return refined._replace(depth=depth, velocity=velocity)
+    if not stiff:
+        return refined
+    return (_after_steps_of_depth if load.by_depth else _after_steps_of_force)(medium, load, refined)
 
 
 def _at_depth(

@@ -226,7 +226,7 @@ def _motion_reference(case, solution):
         if (np.diff(load.values) < 0).any():  # the contact recedes while the force falls
             solution.motions[asked] = _stepped(case, solution, REFERENCE_STEPS)
         else:  # a growing contact has the same events in every medium: the creep response replaces the impulse ∫F dt/η
-            response = creep_response(case.medium.spectrum(load)[0], load)
+            response = creep_response(case.medium.spectrum(load), load)
             solution.motions[asked] = solution.events.depth_at(response)
     return solution.motions[asked]
 

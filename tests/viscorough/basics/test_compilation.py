@@ -60,7 +60,7 @@ from viscorough.media.kinds import KelvinVoigt
 from viscorough.media.load import Load
 from viscorough.viscous.crossing import first_decrease
 load = Load([0, 1, 2], force=[0, 1, 0])
-print(first_decrease(KelvinVoigt(1.0, 1.0).spectrum(load)[0], load.time, load.force))
+print(first_decrease(KelvinVoigt(1.0, 1.0).spectrum(load), load.time, load.force))
 """
 
 

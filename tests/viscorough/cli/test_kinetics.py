@@ -1,6 +1,6 @@
 """viscorough kinetics with media, force histories, times and units; and mistakes in them, each answered in one line.
 
-Units in headings of histories and creep tables are tested in tests/viscorough/io/test_histories.py.
+Units in headings of histories are tested in tests/viscorough/io/test_histories.py.
 """
 
 import dataclasses
@@ -15,7 +15,6 @@ from support.command_line import run, sphere_heights, values
 from viscorough import Indenter, Load, indent, kinetics
 from viscorough.io import netcdf
 from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
-from viscorough.media.table import CreepTable
 
 MEDIA = {
     "newtonian": ("{kind: newtonian, viscosity: 30}", Newtonian(30.0)),
@@ -30,7 +29,6 @@ MEDIA = {
         Prony(0.5, [10.0, 1.0, 3.0], [0.01, 1.0, 50.0]),
     ),
     "springpot": ("{kind: springpot, modulus: 2, exponent: 0.4}", Springpot(2.0, 0.4)),
-    "creep_table": ("{kind: creep_table, file: table.csv}", CreepTable([0, 1, 10], [0.2, 0.5, 0.9])),
 }
 HISTORY = Load([0, 1, 1, 9], force=[0, 0.2, 0.3, 0.3])
 KINETICS = "kinetics curve.nc -o kin.nc"
@@ -46,9 +44,7 @@ def here(curve, here):
     """Make a folder with a curve without a unit, the same in micrometres, and media and force histories."""
     viscorough.save(curve, "curve.nc")
     viscorough.save(dataclasses.replace(curve, length_unit="um"), "um.nc")
-    (here / "table.csv").write_text("t,J\n0,0.2\n1,0.5\n10,0.9\n")
     (here / "force.csv").write_text("t,F\n0,0\n1,0.2\n1,0.3\n9,0.3\n")
-    (here / "table.yaml").write_text(MEDIA["creep_table"][0])
     (here / "medium.yaml").write_text(MEDIA["maxwell"][0])
     return here
 
@@ -75,11 +71,10 @@ def test_file_has_the_results_of_python(here, curve, kind, load, force):
         np.testing.assert_allclose(written["force"], force, rtol=1e-15)
 
 
-@pytest.mark.parametrize("kind", ["prony", "creep_table"])
 @pytest.mark.parametrize("times", [None, [0.5, 1.5, 4.0]])
-def test_depth_histories_load_hold_unload_and_lift(here, curve, capsys, kind, times):
+def test_depth_histories_load_hold_unload_and_lift(here, curve, capsys, times):
     """The file holds the motion of Python, and force falls to zero while the indenter is lifted."""
-    text, medium = MEDIA[kind]
+    text, medium = MEDIA["prony"]
     (here / "medium.yaml").write_text(text)
     (here / "depth.csv").write_text("t,u\n0,0\n1,0.2\n2,0.2\n3,0\n4,-0.1\n")
     option = "" if times is None else f"--times {','.join(map(str, times))}"
@@ -135,11 +130,10 @@ def test_files_may_hold_youngs_moduli(here, curve):
         ("--force '3 mN' --viscosity '2 kPa s' --times 1e-6,2e-6", (3e-3, 2e-9, [1e-6, 2e-6])),
         ("--force 3e-3 --viscosity 2e3 --times 1e-6,2e-6", (3e-3, 2e-9, [1e-6, 2e-6])),
         ("--force '2 uN' --medium mega.yaml --times 1", (2e-6, Maxwell(2e-6, 5e-6), [1.0])),
-        ("--force 1e-12 --medium table.yaml --times 1", (1.0, MEDIA["creep_table"][1], [1.0])),
     ],
 )
 def test_units_are_converted_if_the_curve_has_a_unit_of_length(here, curve, options, expected):
-    """1 Pa is 1e-12 N/um², so 3 mN on 2 kPa s equals 3e-3 on 2e-9 in N and um. Compliances are in 1/Pa."""
+    """1 Pa is 1e-12 N/um², so 3 mN on 2 kPa s equals 3e-3 on 2e-9 in N and um."""
     (here / "mega.yaml").write_text("{kind: maxwell, shear_modulus: 2 MPa, viscosity: 5e6}")
     assert run(f"kinetics um.nc -o kin.nc {options}") == 0
     np.testing.assert_allclose(values("kin.nc")["depth"], kinetics(curve, *expected).depth, rtol=1e-12)
@@ -186,8 +180,11 @@ BAD_MEDIA = [
     (medium_text("maxwell", more=1), "unknown key 'more'; allowed for"),
     (medium_text("springpot", exponent="half"), "exponent: 'half'; allowed: a plain number"),
     (medium_text("prony", moduli="[a, b]"), "moduli[0]: 'a'; allowed: a plain number"),
-    (medium_text("creep_table", file=3), "the name of a .csv or .npy file"),
-    (medium_text("creep_table", file="curve.nc"), "a creep table is read from text"),
+    (
+        "kind: creep_table\nfile: table.csv",
+        "kind 'creep_table'; allowed: newtonian, maxwell, kelvin_voigt, standard_linear_solid, prony, springpot. "
+        "For a table of J or ψ, fit a Prony series, for example with pyRheo or RHEOS, and give kind: prony\n",
+    ),
     ("viscosity: 1", "kind None; allowed: newtonian, maxwell"),
     ("- kind: newtonian", "it holds [{'kind': 'newtonian'}]); one mapping"),
     ("kind: newtonian\nviscosity: 1\nviscosity: 2", "key viscosity for the second time"),

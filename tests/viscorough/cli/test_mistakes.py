@@ -16,7 +16,7 @@ from viscorough.io.netcdf import Content, Variable, write
 
 INDENT, CONTACT = (f"{command} heights.npy --spacing 1 -o out.nc" for command in ("indent", "contact"))
 CONTACT_UM, MARCH = CONTACT.replace("heights.npy", "um.nc"), f"{INDENT.replace('indent', 'march')} --method"
-KINETICS, CREEP = "kinetics curve.nc -o out.nc", "creep curve.nc record.csv --force 1 -o"
+KINETICS = "kinetics curve.nc -o out.nc"
 ESTIMATE = "estimate --hurst 0.8 --diameter 0.01 --times 1"
 GENERATE = "generate --hurst 0.7 --rms 1 --diameter 34 --seed 5 -o made.nc"
 EXCLUDE = "exclude each other; one of them is allowed"
@@ -26,7 +26,7 @@ INCREASING, NO_UNIT = "each larger than the one before", "needs a plain number, 
 OF_PIPES = ["kinetics pipe.nc --force 1 --viscosity 1 -o out.nc", "plot pipe.nc -o out.png"]
 OF_PIPES += [f"{command} -o out.nc" for command in ("indent pipe.nc", "indent pipe.npy", "reduce pipe.npy")]
 OF_PIPES += [f"{KINETICS} --viscosity 1 --force-history pipe{suffix}" for suffix in (".csv", ".npy")]
-OF_PIPES += [f"{KINETICS} --force 1 --medium {name}.yaml" for name in ("pipe", "creep_table_in_pipe")]
+OF_PIPES += [f"{KINETICS} --force 1 --medium pipe.yaml"]
 KIND = "unknown kind of file; allowed:"
 RESULTS = ".nc (NetCDF), .csv (table)"
 WRITERS = ["indent heights.npy --spacing 1", "contact heights.npy --spacing 1 --depth 1", "reduce line.npy --spacing 1"]
@@ -74,14 +74,10 @@ MISTAKES = [
     (f"{KINETICS} --force 1 --medium medium.yaml -o link.nc", "would replace the medium"),
     (f"{KINETICS} --force-history force.csv --viscosity 1 -o force.csv", "would replace the force history"),
     (f"{KINETICS} --force 1 --viscosity 1 -o curve.nc", "would replace the curve"),
-    (f"{KINETICS} --force 1 --medium table.yaml -o table.csv", "would replace the table of the medium"),
     (f"{CONTACT_UM} --force 1 --young 1e-320", "too small"),
-    ("creep curve.nc record.csv -o m.yaml", "one of --force, --force-history and --depth-history is needed"),
-    (f"{CREEP} record.yaml", "record.csv: would replace the record"),
     (f"{ESTIMATE} --rms '1 um' --force 1 --viscosity 1", "one has a unit; both or none is allowed"),
     (f"{ESTIMATE} --rms 1 --force '1 N' --viscosity 1", f"--force 1 N: {NO_UNIT}"),
     (f"{ESTIMATE} --rms 1 --force 1", "one of --viscosity and --medium is needed"),
-    (f"{ESTIMATE} --rms 1 --force 1 --medium table.yaml", "allowed: up to the last time of the table"),
     (f"{ESTIMATE} --rms 1 --force 1 --viscosity 1e-320", "--viscosity: 1e-320; allowed"),
     (f"{ESTIMATE} --rms 1 --force 1e30 --viscosity 1", "--times: X = F·J(t)/(4hL) is"),
     (f"{ESTIMATE.replace('0.8', '0.05')} --rms 1 --force 1 --viscosity 1", "--hurst: must be from 0.1 to 1"),
@@ -97,13 +93,7 @@ MISTAKES = [
         for times in ("0:1", "1:0:3", "0:1:1", "0:1:2.5", "0:inf:3", "0:1:1e9", "a:1:2", "-1:1:2")
     ],
     (f"{KINETICS} --force 1e-320 --viscosity 1", "--times: missing, and the creep is"),
-    (f"{KINETICS} --force 1 --medium table.yaml --times 1", "--times: up to 1; allowed: up to the last time"),
-    (f"{KINETICS} --force-history force.csv --medium table.yaml", "--force or --force-history: up to 2 after"),
     (f"{KINETICS} --depth-history deep.csv --viscosity 1", "--depth-history: 4e+06 is beyond the curve's last level"),
-    (
-        "creep curve.nc deep.csv --force 1 -o m.yaml",
-        "indent further, with --until-fraction 1",
-    ),
     (f"{ESTIMATE} --rms 1 --force 1 --medium medium.yaml -o link.nc", "would replace the medium"),
     (GENERATE, "either --elements (a disc) or --points (a line) is needed"),
     (f"{GENERATE} --elements 5 --plateau", "--plateau is for use with --roll-off"),
@@ -141,7 +131,6 @@ MISTAKES = [
     *[(f"{WRITERS[0]} -o {name}", f"{name}: {KIND} {RESULTS}") for name in ("out.txt", "out", "-")],
     *[(f"{line} -o out.xlsx", f"out.xlsx: {KIND} {RESULTS}") for line in WRITERS],
     (f"{MAP} -o out.csv", f"out.csv: {KIND} .nc (NetCDF)"),
-    (f"{CREEP} out.nc", f"out.nc: {KIND} .yaml (medium), .yml (medium)"),
     ("plot curve.nc -o out.nc", f"out.nc: {KIND} .png (picture), .pdf (drawing), .svg (drawing)"),
 ]
 
@@ -156,15 +145,12 @@ def test_mistakes_are_one_line(here, complaint, line, what):
         viscorough.save(Indenter(sphere_heights(9), 1.0, length_unit=unit), name)
     write(Content({"a": Variable(("b",), np.arange(3.0), {"long_name": "a", "units": "1"})}, {}), "other.nc")
     (here / "medium.yaml").write_text("{kind: newtonian, viscosity: 30}")
-    (here / "table.yaml").write_text("{kind: creep_table, file: table.csv}")
     (here / "table.csv").write_text("0,0\n1e-6,1e-12\n")
     (here / "deep.csv").write_text("0,0\n1,1e6\n2,2e6\n3,3e6\n4,4e6\n")
-    for name in ("force.csv", "record.csv"):
-        (here / name).write_text("0,0\n1,0.2\n2,0.4\n")
+    (here / "force.csv").write_text("0,0\n1,0.2\n2,0.4\n")
     (here / "link.csv").symlink_to("force.csv")
     (here / "link.nc").symlink_to("medium.yaml")
     (here / "link.png").symlink_to("curve.nc")
-    (here / "creep_table_in_pipe.yaml").write_text("{kind: creep_table, file: pipe.csv}")
     for suffix in ("", ".nc", ".csv", ".npy", ".yaml"):
         os.mkfifo(f"pipe{suffix}")
     assert what in complaint(line)

@@ -1,11 +1,10 @@
-"""Force histories and creep tables read from files: headers, units, and refusals."""
+"""Force histories read from files: headers, units, and refusals."""
 
 import numpy as np
 import pytest
 
 from support.contract import refused
 from viscorough import AccuracyWarning, read_load
-from viscorough.io.medium_files import medium_from_mapping
 
 
 @pytest.fixture
@@ -59,12 +58,6 @@ def test_units_in_a_heading_are_converted(history, heading):
 def test_each_column_has_its_own_unit_or_none(history, heading, factors):
     times, force = history(f"{heading}\n0,1\n1,2\n", "m")
     np.testing.assert_allclose([times[1], force[0]], factors, rtol=1e-3)
-
-
-def test_units_of_creep_tables_are_converted(tmp_path):
-    (tmp_path / "table.csv").write_text("t [ms],J [1/MPa]\n0,1\n500,3\n")
-    table = medium_from_mapping({"kind": "creep_table", "file": "table.csv"}, "m", folder=tmp_path)
-    np.testing.assert_allclose([table.times, table.compliances], [[0, 0.5], [1e-6, 3e-6]], rtol=1e-15)
 
 
 TABLES = [

@@ -16,7 +16,6 @@ RESULTS = {
     "curve": CURVE,
     "contact": viscorough.contact_at(DISC, depth=1e-6),
     "motion": MOTION,
-    "medium": viscorough.identify_medium(CURVE, 5e-6, MOTION.time, MOTION.depth),
 }
 
 

@@ -52,7 +52,7 @@ def test_velocity_of_a_single_element_is_the_rate_of_creep(name):
 
 def creep(medium, times, force):
     load = Load(times, force=force)
-    return creep_response(medium.spectrum(load)[0], load)
+    return creep_response(medium.spectrum(load), load)
 
 
 def test_short_and_long_times_lose_no_digits():
@@ -70,7 +70,7 @@ def test_short_and_long_times_lose_no_digits():
 
 def receding_from(medium, force, times):
     load = Load(times, force=force)
-    return first_decrease(medium.spectrum(load)[0], load.time, load.values)
+    return first_decrease(medium.spectrum(load), load.time, load.values)
 
 
 def test_maxwell_may_unload_slowly():
@@ -100,7 +100,7 @@ def test_first_decrease_against_dense_sampling():
     assert within > 0
 
 
-@pytest.mark.parametrize("name", ["maxwell", "solid", "prony", "prony liquid", "springpot", "table"])
+@pytest.mark.parametrize("name", ["maxwell", "solid", "prony", "prony liquid", "springpot"])
 def test_creep_decreases_at_a_step_down_where_the_medium_springs_at_once(name):
     assert receding_from(MEDIA[name], [1.0, 1.0, 0.9, 0.9], [0.0, 1.0, 1.0, 2.0]) == 1.0
 
@@ -115,7 +115,7 @@ def test_steps_down_that_viscous_media_carry():
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("name", ["springpot", "table"])
+@pytest.mark.parametrize("name", ["springpot", "prony"])
 def test_decrease_is_where_dense_sampling_finds_it(name):
     """Loaded at once, held and unloaded slowly: the first time at which a dense sampling of Φ decreases."""
     medium, dense = MEDIA[name], np.linspace(1, 21, 4001)

@@ -1,1 +1,0 @@
-"""Fits of media to measured records."""

@@ -159,8 +159,7 @@ law: environment
 	PYTHONPATH=benchmarks $(BIN)/python calibration/law.py --cores $(CORES) --output results/tables/law.csv
 
 law-errors: environment
-	PYTHONPATH=benchmarks $(BIN)/python calibration/law_errors.py --cores $(CORES) --output results/tables/law_errors.csv \
-		--scatter results/tables/law_scatter.csv
+	PYTHONPATH=benchmarks $(BIN)/python calibration/law_errors.py --cores $(CORES) --output results/tables/law_errors.csv
 
 large: environment
 	$(BIN)/python benchmarks/large_discs.py --cores $(CORES) --output results/tables/large.csv

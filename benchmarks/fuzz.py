@@ -117,7 +117,7 @@ def fault_of_output(path):
     except ValueError as error:
         return f"the output cannot be read: {error}"
     variables = content.variables
-    if "depth_low" in variables or "levels" in variables:  # estimates and stacks of curves contain nan
+    if {"x", "velocity"} <= set(variables) or "levels" in variables:  # estimates and stacks of curves contain nan
         return ""
     # Depths before the curve's first level are missing, and velocities may be infinite; a warning says so.
     may_be_missing = {"depth", "velocity"} if "are missing" in str(content.attributes.get("warnings")) else set()

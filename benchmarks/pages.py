@@ -292,7 +292,6 @@ def numbers():
     )
     on_grids = results("grid_dependence").query("quantity == 'κ at u/h = 1'").groupby("hurst")["factor"].max()
     law = results("law_errors").query("across == 257 and x > 0.003")
-    covered = law.query("tested > 0")[["velocity_coverage", "depth_coverage"]].groupby(law["hurst"]).mean()
     over_operator = [steps["whole"] for steps in benchmarks["over_operator"].values()]
     return {
         "default minutes": default_minutes(),
@@ -305,7 +304,6 @@ def numbers():
         "law velocity": f"{100 * law['velocity_error'].abs().max():.0f}",
         "law interface": f"{100 * law['interface_error'].abs().max():.0f}",
         "law depth": f"{100 * law['depth_error'].abs().max():.0f}",
-        "law coverage": span(100 * covered),
         "law and mean": span(errors_of_means("law"), 1),
         "mdr and mean": span(errors_of_means("MDR, λ = π", "MDR, λ fitted")),
         "coarse grid": span(100 * grids["error"]),

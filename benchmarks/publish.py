@@ -4,10 +4,9 @@
 
 Every command (`make paper`, `make speed`, ...) has its own figures and tables, which are copied into docs/results/ with
 their origin. Name the commands whose results are in the folder: some of the files also exist at a smaller scale.
-`paper` includes the verdicts and the calibrated power law, `law` the law of the interface, and `law-errors` its errors
-and the intervals of single surfaces. `reproduce` includes the verdicts and the cost of the default run. Then the
-numbers and tables in README.md and docs/ are written (benchmarks/pages.py); with `--pages-only` nothing else is done.
-The workflow writes only into results/.
+`paper` includes the verdicts and the calibrated power law, `law` the law of the interface, and `law-errors` its errors.
+`reproduce` includes the verdicts and the cost of the default run. Then the numbers and tables in README.md and docs/
+are written (benchmarks/pages.py); with `--pages-only` nothing else is done. The workflow writes only into results/.
 """
 
 import io
@@ -61,7 +60,6 @@ KEPT = {
         "tables/calibration.csv": "src/viscorough/law/data/calibration.csv",
     },
     "law": {"tables/law.csv": "src/viscorough/law/data/law.csv"},
-    "law-errors": {"tables/law_scatter.csv": "src/viscorough/law/data/law_scatter.csv"},
     "reproduce": {
         "tables/rule_costs.csv": DEFAULT_COSTS,
         "tables/claims.csv": DEFAULT_CLAIMS,

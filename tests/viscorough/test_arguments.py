@@ -267,8 +267,6 @@ METHODS = {
     "event_at": call(newtonian_events(DISC).event_at, {"impulse": [0.5, 1.0]}),
     "law.velocity": call(viscorough.penetration_law(0.5).velocity, {"x": [0.5, 1.0]}),
     "law.depth": call(viscorough.penetration_law(0.5).depth, {"x": [0.5, 1.0]}),
-    "law.velocity_interval": call(viscorough.penetration_law(0.5).velocity_interval, {"x": [0.5, 1.0]}),
-    "law.depth_interval": call(viscorough.penetration_law(0.5).depth_interval, {"x": [0.5, 1.0]}),
 }
 LAWS = {
     "PowerLawBody": {"coefficient": 1.0, "exponent": 2.0},

@@ -40,8 +40,7 @@ def estimate(
     The law for the velocity v at the time t is vt/h = X + g(X) with X = Ft/(4 viscosity h L). It was calibrated with
     boundary elements on discs of 257 elements across; while few spots touch, it is close to a power law, X^beta/zeta.
     In a medium with the creep compliance J(t), X is F J(t)/(4 h L). Depth and velocity are arithmetic means of many
-    surfaces. Between the columns "from" and "to" lie 95 % of single surfaces; the last line states the interval of the
-    mean.
+    surfaces; the last line states the interval of the mean. Single surfaces deviate more.
 
     The law is used in a limited range of X: from the first few contact spots until the whole disc sinks almost like a
     flat punch. The range was chosen so that g is within 5 % of its mean over discs that were not used for the

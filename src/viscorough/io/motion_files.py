@@ -22,19 +22,13 @@ _QUANTITIES: Quantities = {
     "velocity": ("velocity of penetration du/dt", "velocity"),
     "force": ("force F at that time", "N"),
 }
-# An estimate has three variables for depth and three for velocity: {end of the name of the variable: meaning}.
-_STATISTICS = {
-    "": "mean over surfaces",
-    "_low": "lower end of the interval of 95 % of single surfaces",
-    "_high": "upper end of the interval of 95 % of single surfaces",
-}
 
 
 def estimate_to_content(estimate: Estimate, length_unit: str = "1") -> Content:
     """Convert an Estimate to the content of a NetCDF file. Values are nan at times when the law does not hold."""
     quantities = {name: _QUANTITIES[name] for name in ("time", "x")}
     for name, text, unit in (("depth", "depth of penetration u", 1), ("velocity", *_QUANTITIES["velocity"])):
-        quantities |= {name + suffix: (f"{text}, {statistic}", unit) for suffix, statistic in _STATISTICS.items()}
+        quantities[name] = (f"{text}, mean over surfaces", unit)
     variables = described(("level",), {name: getattr(estimate, name) for name in quantities}, quantities, length_unit)
     attributes = {
         "title": "Penetration of a self-affine indenter by the calibrated law, no simulation",

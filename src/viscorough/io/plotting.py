@@ -233,9 +233,6 @@ def _motion(variables: Variables) -> Figure:
     names = [name for name in ("depth", "velocity") if name in here]
     figure, axes = _panels(len(names))
     for panel, name in zip(axes, names, strict=True):
-        ends = [variables[key] for end in ("low", "high") if (key := f"{name}_{end}") in variables]
-        if len(ends) == 2:  # an estimate has an interval with two ends
-            panel.fill_between(time, ends[0].values, ends[1].values, color=_BLUE, alpha=0.25, linewidth=0)
         _curve(panel, time, variables[name].values)
         _label(panel, variables, "time", name, name)
     return figure

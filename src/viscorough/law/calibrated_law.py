@@ -23,8 +23,6 @@ Sources of the numbers:
   so that the integrals ∫g d ln X and ∫g dX equal the means of the exact integrals (contact.complete_contact), and
   so that g is as close as possible to the mean over computed curves up to complete contact. The table also has the
   range of X in which g is within 5 % of the mean over other discs.
-- The intervals that contain single surfaces are in data/law_scatter.csv, a copy of results/tables/law_scatter.csv from
-  `make law-errors`.
 - β and ζ of the paper's power law in region (b) are in data/calibration.csv, a copy of
   results/tables/calibration.csv from `make paper`.
 
@@ -35,11 +33,10 @@ waves determine the law, so b is the exponent for this grid, not for an infinite
 """
 
 import csv
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -78,15 +75,6 @@ COLUMNS = {
     "x_low": ("lower end of region (b) in X = F/(4GhL) = Ft/(4ηhL)", "1"),
     "x_high": ("upper end of region (b) in X", "1"),
     "realizations": ("realizations", "1"),
-}
-SCATTER_COLUMNS = {
-    "hurst": ("Hurst exponent H", "1"),
-    "x": ("dimensionless force or time X", "1"),
-    **{
-        f"{name}_{end}": (f"{side} end of the interval of {text} of a single surface, over the law", "1")
-        for name, text in {"velocity": "vt/h", "depth": "u/h"}.items()
-        for end, side in {"low": "lower", "high": "upper"}.items()
-    },
 }
 
 
@@ -171,22 +159,6 @@ class PenetrationLaw:
         x = self._inside(x)
         return x + interface_depth(x, *self.constants)
 
-    def velocity_interval(self, x: "ArrayLike") -> Array:
-        """Return (lower, upper) ends of the interval that contains vt/h of 95 % of single surfaces.
-
-        The shape is (2, shape of X). Raises ValueError like `velocity`.
-        """
-        x = self._inside(x)
-        return self.velocity(x) * relative_interval(scatter_calibration(), "velocity", self.hurst, x)
-
-    def depth_interval(self, x: "ArrayLike") -> Array:
-        """Return (lower, upper) ends of the interval that contains u/h of 95 % of single surfaces.
-
-        The shape is (2, shape of X). Raises ValueError like `velocity`.
-        """
-        x = self._inside(x)
-        return self.depth(x) * relative_interval(scatter_calibration(), "depth", self.hurst, x)
-
     @property
     def constants(self) -> tuple[float, ...]:
         """Return the constants A, b, s, m and d of g, in the order of `CONSTANTS`."""
@@ -233,32 +205,6 @@ def interface_calibration() -> dict[str, Array]:
     """
     names = ("hurst", *CONSTANTS, "velocity_error", "depth_error", "x_low", "x_high")
     return _read("law.csv", lambda row: int(row["across"]) == ACROSS, names)
-
-
-@cache
-def scatter_calibration() -> dict[str, Array]:
-    """Return the intervals that contain 95 % of single surfaces: {key of SCATTER_COLUMNS: array}.
-
-    Each array has a number for each pair of H and X, sorted by H and then by X.
-    """
-    return _read("law_scatter.csv", lambda row: True, list(SCATTER_COLUMNS))
-
-
-def relative_interval(table: Mapping[str, Any], quantity: str, hurst: float, x: Numbers) -> Array:
-    """Return (lower, upper) ends of the interval that contains 95 % of single surfaces, divided by the law's value.
-
-    The shape is (2, shape of X). The logarithms of the ends are interpolated linearly in H and in ln X.
-
-    table : {key of SCATTER_COLUMNS: array}, as `scatter_calibration` returns it
-    quantity : "velocity" (vt/h) or "depth" (u/h)
-    """
-    hursts, abscissae = np.unique(table["hurst"]), np.unique(table["x"])
-    ends = []
-    for end in ("low", "high"):
-        logarithms = np.log(np.asarray(table[f"{quantity}_{end}"])).reshape(hursts.size, abscissae.size)
-        at_hurst = [np.interp(hurst, hursts, column) for column in logarithms.T]
-        ends.append(np.exp(np.interp(np.log(x), np.log(abscissae), at_hurst)))
-    return np.array(ends)
 
 
 def law_covers(hurst: float, x: Numbers | None = None) -> bool:

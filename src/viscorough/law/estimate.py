@@ -22,8 +22,6 @@ class Estimate(ReadOnlyArrays):
     depth, velocity : u and v = du/dt, as arithmetic means over many surfaces at the same X. The X of each surface
         contains the rms height of this surface. u has the unit of the rms height, and v has this unit divided by the
         unit of time
-    depth_low, depth_high, velocity_low, velocity_high : ends of the intervals that contain the depth and the velocity
-        of 95 % of single surfaces
     law : PenetrationLaw, which holds for X from law.x_low to law.x_high. Its relative errors, compared with means over
         many surfaces, are at most law.depth_error and law.velocity_error
     """
@@ -31,11 +29,7 @@ class Estimate(ReadOnlyArrays):
     time: np.ndarray
     x: np.ndarray
     depth: np.ndarray
-    depth_low: np.ndarray
-    depth_high: np.ndarray
     velocity: np.ndarray
-    velocity_low: np.ndarray
-    velocity_high: np.ndarray
     law: PenetrationLaw
 
     @property
@@ -49,22 +43,16 @@ class Estimate(ReadOnlyArrays):
         return f"Estimate at {self.time.size} times, {', '.join(ranges)}"
 
     def __str__(self) -> str:
-        """Return a table with a row for each time, and a last line with the errors of the law.
-
-        The columns are time, X, depth and velocity. After depth and velocity, the columns "from" and "to" are the ends
-        of the interval in which this quantity lies for 95 % of all surfaces.
-        """
-        head = f"{'time':>10} {'X':>10} {'depth':>10} {'from':>10} {'to':>10} {'velocity':>10} {'from':>10} {'to':>10}"
-        columns = (self.time, self.x, self.depth, self.depth_low, self.depth_high)
-        columns += (self.velocity, self.velocity_low, self.velocity_high)
+        """Return a table with time, X, depth and velocity in each row, and a last line with the errors of the law."""
+        head = f"{'time':>10} {'X':>10} {'depth':>10} {'velocity':>10}"
+        columns = (self.time, self.x, self.depth, self.velocity)
         rows = [
             " ".join(f"{'-' if np.isnan(value) else f'{value:.4g}':>10}" for value in row)
             + (f"  {where}" if where else "")
             for *row, where in zip(*columns, self.where, strict=True)
         ]
         law = self.law
-        intervals = (
-            f"from, to: 95 % of single surfaces; mean of many surfaces: depth ± {100 * law.depth_error:.2g} %, "
-            f"velocity ± {100 * law.velocity_error:.2g} %"
+        errors = (
+            f"mean of many surfaces: depth ± {100 * law.depth_error:.2g} %, velocity ± {100 * law.velocity_error:.2g} %"
         )
-        return "\n".join([head, *rows, intervals])
+        return "\n".join([head, *rows, errors])

@@ -16,7 +16,7 @@ LAW = viscorough.penetration_law(0.6)
 
 @pytest.mark.parametrize("hurst", [0.7, 1.0])
 def test_estimate_is_the_mean_of_simulated_surfaces(hurst):
-    """The mean is arithmetic, over 24 discs of 129 elements across. Most discs lie in the interval of one surface."""
+    """The mean is arithmetic, over 24 discs of 129 elements across."""
     times = np.geomspace(5e-3, 3, 6)  # force over viscosity is PER_X, so X = t
     times = times[times >= viscorough.penetration_law(hurst).x_low]
     estimated = estimate(hurst, RMS, DIAMETER, PER_X, 1.0, times)
@@ -26,10 +26,6 @@ def test_estimate_is_the_mean_of_simulated_surfaces(hurst):
         curve = viscorough.indent(disc, until_force=1.1 * PER_X * times[-1], tolerance=1e-2)
         motion = viscorough.kinetics(curve, PER_X, 1.0, times)
         motions.append([motion.velocity, motion.depth])
-    for i, name in enumerate(("velocity", "depth")):
-        low, high = getattr(estimated, f"{name}_low"), getattr(estimated, f"{name}_high")
-        single = np.array(motions)[:, i]
-        assert ((low <= single) & (single <= high)).mean() >= 0.85, name  # 0.95 expected
     velocity, depth = np.mean(motions, axis=0)
     # The limit is three standard errors of the mean.
     np.testing.assert_allclose(estimated.velocity, velocity, rtol=0.2)
@@ -42,9 +38,7 @@ def test_newtonian_media_follow_the_law():
     estimated = viscorough.estimate(0.6, RMS, DIAMETER, 3 * PER_X, Newtonian(3.0), times)
     np.testing.assert_allclose(estimated.x, times)
     for name, scale in (("velocity", RMS / times), ("depth", RMS)):
-        values = [getattr(estimated, name), getattr(estimated, f"{name}_low"), getattr(estimated, f"{name}_high")]
-        expected, interval = getattr(LAW, name)(times), getattr(LAW, f"{name}_interval")(times)
-        np.testing.assert_allclose(values, scale * np.array([expected, *interval]), rtol=1e-14)
+        np.testing.assert_allclose(getattr(estimated, name), scale * getattr(LAW, name)(times), rtol=1e-14)
 
 
 @pytest.mark.parametrize("medium", [Maxwell(100.0, 1.0), StandardLinearSolid(100.0, 20.0, 0.3)])
@@ -57,11 +51,11 @@ def test_velocity_is_the_derivative_of_the_depth_in_any_medium(medium):
 def test_law_gives_no_numbers_outside_its_range():
     estimated = estimate(0.6, RMS, DIAMETER, PER_X, 1.0, [0.9 * LAW.x_low, 1.0, 1.1 * LAW.x_high])
     assert estimated.where.tolist() == ["below", "", "above"]
-    for name in ("depth", "depth_low", "depth_high", "velocity", "velocity_low", "velocity_high"):
+    for name in ("depth", "velocity"):
         assert np.isfinite(getattr(estimated, name)).tolist() == [False, True, False]
-    *lines, intervals = str(estimated).splitlines()
+    *lines, errors = str(estimated).splitlines()
     assert [line.split()[-1] for line in lines[1:]][::2] == ["below", "above"]
-    assert intervals.endswith(f"depth ± {100 * LAW.depth_error:.2g} %, velocity ± {100 * LAW.velocity_error:.2g} %")
+    assert errors.endswith(f"depth ± {100 * LAW.depth_error:.2g} %, velocity ± {100 * LAW.velocity_error:.2g} %")
 
 
 def test_values_outside_their_ranges_are_refused():

@@ -124,6 +124,6 @@ FROM_TABLES = {  # arguments of the figures that are drawn from tables alone
     "media": (media_table(),),
     "reduction": (published("reduction"),),
     "sizes": (published("sizes"), SHOWN),
-    "speed": (*map(published, ("one_surface", "mean_accuracy", "methods", "fine_velocities")), OTHER_SOLVERS),
+    "speed": (published("mean_accuracy"), OTHER_SOLVERS),
     "validation": (published("validation"),),
 }

@@ -249,10 +249,7 @@ use rule plot_surfaces as plot_validation with:
 
 use rule plot_surfaces as plot_speed with:
     input:
-        one_surface="results/tables/one_surface.csv",
         means="results/tables/mean_accuracy.csv",
-        methods="results/tables/methods.csv",
-        fine_velocities="results/tables/fine_velocities.csv",
     output:
         path=report(
             "results/figures/speed.{format}",

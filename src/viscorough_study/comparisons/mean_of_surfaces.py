@@ -33,6 +33,7 @@ COLUMNS = {
     "surfaces": ("surfaces in the mean; 0 for a model that needs none", "1"),
     "processor_s": ("processor time of all surfaces; missing where a curve was not timed", "s"),
     "error": ("relative error of the mean", "1"),
+    "reference_error": ("standard error of the exact mean, over the discs on the finest grid; missing for β", "1"),
 }
 
 
@@ -48,7 +49,7 @@ def mean_accuracy(discs, lines, size_discs, mdr_lambda, scaling, one_surface, *,
     base = ensembles(select(discs, group="base"), "hurst", rms_convention=rms)
     reduced = ensembles(lines, "hurst", rms_convention="line")
     grids = ensembles(select(size_discs, group="sizes"), "hurst", "elements", rms_convention=rms)
-    rows = []
+    rows, standard_errors = [], {}
     for hurst, truth in base.items():
         times = one_surface[one_surface["hurst"] == _nearest(one_surface["hurst"], hurst)].query(
             "quantity == 'velocity'"
@@ -78,7 +79,10 @@ def mean_accuracy(discs, lines, size_discs, mdr_lambda, scaling, one_surface, *,
         deviation = np.log(law / truth["velocity_arithmetic"].values[here])
         rows.append((hurst, "velocity", LAW, np.nan, 0, 0.0, _root_mean(deviation**2)))
         rows += _exponent_rows(hurst, scaling, conventions, lines, times)
-    return pd.DataFrame(rows, columns=list(COLUMNS))
+        standard_errors[hurst] = exact.standard_error
+    table = pd.DataFrame(rows, columns=[name for name in COLUMNS if name != "reference_error"])
+    reference = table["hurst"].map(standard_errors).where(table["quantity"] == "velocity")
+    return table.assign(reference_error=reference)
 
 
 class _Mean:
@@ -95,6 +99,11 @@ class _Mean:
     def scatter(self):
         """Return the standard deviation of ln(vt/h) among single surfaces, as a root mean square over all X."""
         return _root_mean(self.variance)
+
+    @property
+    def standard_error(self):
+        """Return the standard error of the mean of ln(vt/h), as a root mean square over all X."""
+        return _root_mean(self.variance / self.number)
 
     def deviation(self, other):
         """Return the root mean square over all X of the difference between another mean and this mean.

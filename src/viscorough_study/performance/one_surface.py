@@ -47,7 +47,7 @@ COLUMNS = {
     "value": ("value of that parameter", "1"),
     "processor_s": ("processor time, median over the surfaces", "s"),
     "error": ("relative error, root mean square over X and over the surfaces", "1"),
-    "stated": ("error that the curve states itself, mean over the surfaces; missing where it states none", "1"),
+    "stated": ("error that the curve of the full map states itself, mean over the surfaces; else missing", "1"),
     "surfaces": ("surfaces", "1"),
 }
 LABELS = ["hurst", "quantity", "model", "across", "parameter", "value"]

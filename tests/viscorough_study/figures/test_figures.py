@@ -13,7 +13,6 @@ from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.comparisons.histories import FORCE_CURVE, RECOVERY
 from viscorough_study.figures.exponent import SHIFT
 from viscorough_study.figures.failure_map import CONCERNED, LETTERS, MEANINGS
-from viscorough_study.figures.speed import SOLVERS
 from viscorough_study.figures.style import SMALL
 from viscorough_study.fits.conventions import fits
 from viscorough_study.robustness.failure_map import VERDICTS
@@ -110,78 +109,34 @@ def test_figures_show_the_numbers_of_their_tables(drawn, scaling):
         assert near.all(), (figure, panel, expected[~near])
 
 
-def test_speed_has_a_curve_for_each_grid(drawn):
-    surfaces, means, *_ = tables.FROM_TABLES["speed"]
-    velocity = surfaces.query("quantity == 'velocity'")
-    for axes, (hurst, rows) in zip(drawn["speed"].axes, velocity.groupby("hurst"), strict=False):
-        assert f"$H$ = {hurst:g}" in axes.get_title()
-        curves = [line.get_xydata() for line in axes.lines if line.get_marker() == "o"]
-        grids = rows.query("model == 'grid' and across < across.max()").groupby("across")
-        for curve, (_, grid) in zip(curves, grids, strict=True):
-            close(curve, grid[["processor_s", "error"]])
-        (law,) = [line for line in axes.lines if line.get_marker() == "D"]
-        close(law.get_ydata(), rows.query("model == 'law'")["error"])
-    many = drawn["speed"].axes[2]
-    grids = means.query("quantity == 'velocity' and model == 'grid' and hurst == 0.4").dropna().groupby("across")
-    curves = {line.get_label(): line.get_xydata() for line in many.lines}
-    for across, grid in grids:
-        close(curves[f"{across:g} × {across:g}"], grid[["processor_s", "error"]])
+def test_speed_has_a_labelled_curve_for_each_model_of_the_mean(drawn):
+    means, axes = tables.FROM_TABLES["speed"][0], drawn["speed"].axes[0]
+    rows = means.query("quantity == 'velocity' and hurst == 0.4").dropna(subset="error")
+    curves = [line.get_xydata() for line in axes.lines if line.get_marker() in "ov^"]
+    models = rows.query("model != 'law'").groupby(["model", "across"], dropna=False)
+    for _, curve in models:
+        assert any(np.allclose(curve[["processor_s", "error"]], shown) for shown in curves)
+    labels = {text.get_text() for text in axes.texts}
+    assert {"33 × 33", "discs, 257 × 257", "MDR, λ = π", "law, every $H$"} <= labels
+    (law,) = [line for line in axes.lines if line.get_marker() == "D"]
+    close(law.get_ydata(), means.query("model == 'law' and quantity == 'velocity'")["error"])
+    assert axes.patches[0].get_bbox().y1 == rows["reference_error"].iloc[0]
 
 
-def test_cheapest_models_lie_on_the_pareto_front_and_are_named(drawn):
-    means, many = tables.FROM_TABLES["speed"][1], drawn["speed"].axes[2]
-    rows = means.query("quantity == 'velocity' and hurst == 0.4 and processor_s > 0")
-    (front,) = [line.get_xydata() for line in many.lines if line.get_label().startswith("Pareto")]
-    points = rows[["processor_s", "error"]].to_numpy()
-    below = [[(other <= point).all() and (other < point).any() for other in points] for point in points]
-    close(front, sorted(map(tuple, points[~np.any(below, axis=1)])))
-    named = {text.xy[1]: text.get_text() for text in many.texts if hasattr(text, "xy")}
-    for allowed in (0.2, 0.1, 0.05, 0.01):
-        cheapest = rows[rows["error"] <= allowed]["processor_s"].min()
-        assert named[allowed].endswith(f": {cheapest:.2g} s")
-    assert named[0.05].startswith("law, else 16 discs of 129 × 129")
-    assert "law" not in named[0.01]  # its error at H = 0.9 is larger
-
-
-def test_sum_over_pairs_is_drawn_with_plain_averaging_on_the_same_grid(drawn):
-    fine = tables.FROM_TABLES["speed"][3].query("hurst == 0.4 and quantity == 'whole' and across == 4097")
-    fine = fine[fine["x"] > 0.00099]
-    curves = {line.get_label().split(": ")[-1]: line.get_xydata() for line in drawn["speed"].axes[2].lines}
-    close(curves["sum over pairs of grids"], [(fine["sum_s"].max(), np.sqrt((fine["error"] ** 2).mean()))])
-    deviation, seconds = np.sqrt((fine["deviation"] ** 2).mean()), fine["processor_s"].iloc[0]
-    close(curves["one grid"], [(n * seconds, deviation / np.sqrt(n)) for n in (1, 4, 16, 64, 256)])
-
-
-def test_other_solvers_have_their_published_times_at_the_error_of_the_same_residual(drawn):
-    _, _, methods, _, others = tables.FROM_TABLES["speed"]
-    rough = methods.query("hurst == 0.4 and elements == 257 and method == 'path, at the depths' and value == 1e-6")
+def test_other_solvers_have_bars_of_their_published_times(drawn):
+    others, axes = tables.FROM_TABLES["speed"][1], drawn["speed"].axes[1]
     ratios = {}
     for race in others:
         if (race["task"], race["hurst"]) == ("eight levels", 0.4):
             ratios.setdefault(race["solver"].split()[0], []).append(race["ratio"])
-    squares = [line.get_xydata()[0] for line in drawn["speed"].axes[3].lines if line.get_marker() == "s"]
-    expected = [(min(found) * rough["processor_s"].item(), rough["error"].item()) for found in ratios.values()]
-    close(sorted(map(tuple, squares)), sorted(expected))
+    assert sorted(bar.get_width() for bar in axes.patches) == sorted(min(found) for found in ratios.values())
+    assert "8 depths of a disc, 257 × 257,\n$H$ = 0.4, one thread,\nresidual $10^{-6}$" in axes.get_title()
 
 
-def test_speed_of_exponents_without_a_law_has_no_marker_of_the_law():
-    surfaces, means, *others = tables.FROM_TABLES["speed"]
-    surfaces, means = (rows.assign(error=rows["error"].mask(rows["model"] == "law")) for rows in (surfaces, means))
-    figure = plot("speed", surfaces, means, *others)
-    assert [line for axes in figure.axes for line in axes.lines if line.get_marker() == "D"] == []
-    assert "the law is not calibrated" in figure.axes[2].get_title()
-
-
-def test_label_of_the_fastest_solver_lies_within_its_axes():
-    """The times of the drawn solvers differ little, and another method is slow: their points are at the left."""
-    surfaces, means, methods, *others = tables.FROM_TABLES["speed"]
-    is_drawn = methods["method"].isin(list(SOLVERS))
-    own, slow = methods["method"] == "path, at the depths", methods["processor_s"].max()
-    methods = methods.assign(processor_s=np.select([own, is_drawn], [slow / 1000, slow / 300], slow))
-    figure = plot("speed", surfaces, means, methods, *others)
-    figure.canvas.draw()
-    (label,) = [text for text in figure.axes[3].texts if text.get_text() == "viscorough"]
-    assert label.get_window_extent().x0 >= figure.axes[3].get_window_extent().x0
+def test_speed_without_a_law_has_no_marker_of_the_law():
+    means, others = tables.FROM_TABLES["speed"]
+    means = means.assign(error=means["error"].mask(means["model"] == "law"))
+    assert [line for line in plot("speed", means, others).axes[0].lines if line.get_marker() == "D"] == []
 
 
 def test_bars_of_failures_are_shares_that_add_up_to_all_cases(drawn):

@@ -40,11 +40,7 @@ endif
 MOVED := $(if $(wildcard .venv/lock-installed),$(shell grep -qsF "$$(pwd -P)/.venv/bin/python" .venv/bin/pip || echo moved))
 
 .PHONY: help environment environment-dev environment-slurm reproduce paper report check lint ready-to-test test test-all docs test-slurm bench \
-<<<<<<< HEAD
-	speed stability sizes law law-errors intervals large publish peers lock lock-dev lock-peers lock-slurm clean
-=======
-	speed stability sizes law law-errors large first-minutes outside fuzz faults seeds publish dist peers lock lock-dev lock-peers lock-slurm clean
->>>>>>> 380c1d8c (Remove the identification of media and tables of J and psi)
+	speed stability sizes law law-errors large publish peers lock lock-dev lock-peers lock-slurm clean
 
 help:
 	@echo "make reproduce     the default reproduction, with the page results/index.html"

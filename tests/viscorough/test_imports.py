@@ -36,7 +36,7 @@ def test_top_level_names_do_not_depend_on_earlier_imports():
         if sys.argv[1:]:
             for module in pkgutil.walk_packages(viscorough.__path__, "viscorough."):
                 importlib.import_module(module.name)
-        assert set(viscorough.__all__) <= set(dir(viscorough))
+        assert {*viscorough.__all__, "__version__"} == set(dir(viscorough))
         objects = {name: getattr(viscorough, name) for name in viscorough.__all__}
         print(json.dumps({name: getattr(value, "__module__", value.__name__) for name, value in objects.items()}))
     """)

@@ -1,8 +1,6 @@
 """Files that must agree: profiles, rules and scripts, lock files, citation, container."""
 
 import re
-import shutil
-import subprocess
 import tomllib
 
 import yaml
@@ -67,19 +65,3 @@ def test_citation_agrees_with_package_and_changelog():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     assert (citation["version"], citation["license"]) == (project["version"], project["license"])
     assert f"## {project['version']} ({citation['date-released']})\n" in (ROOT / "CHANGELOG.md").read_text()
-
-
-def test_container_has_the_files_that_its_commands_need(tmp_path):
-    """The files that Containerfile copies suffice to plan its commands."""
-    commands = re.findall(r"^(COPY|RUN|CMD) (.*)", (ROOT / "Containerfile").read_text(), re.MULTILINE)
-    for sources, target in (text.rsplit(maxsplit=1) for kind, text in commands if kind == "COPY"):
-        for source in map(ROOT.joinpath, sources.split()):
-            if source.is_dir():
-                shutil.copytree(source, tmp_path / target, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
-            else:
-                (tmp_path / target).mkdir(exist_ok=True)
-                shutil.copy(source, tmp_path / target)
-    assert commands[-2:] == [("RUN", "make environment"), ("CMD", '["make", "reproduce"]')]
-    for command in ("environment", "reproduce"):
-        subprocess.run(["make", "--dry-run", command], cwd=tmp_path, check=True, capture_output=True)
-    snakemake(tmp_path, "--dry-run")

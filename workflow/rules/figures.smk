@@ -64,6 +64,7 @@ use rule plot_surfaces as plot_kinetics with:
 use rule plot_surfaces as plot_master_curve with:
     input:
         discs="results/ensembles/discs.nc",
+        longer_period="results/ensembles/discs.nc",
         lines="results/ensembles/lines.nc",
         scaling="results/tables/scaling.csv",
     output:

@@ -1,7 +1,6 @@
 """Draw how the exponent β and the prefactor ζ depend on the conventions that the paper leaves open."""
 
 import numpy as np
-from matplotlib.ticker import NullLocator
 
 from viscorough import reference
 from viscorough_study.figures import style
@@ -56,7 +55,6 @@ def plot_conventions(scaling, conventions):
         for y in range(0, len(changes), 2):
             axes.axhspan(y - 0.5, y + 0.5, color="0.95", linewidth=0, zorder=0)
     betas.set(yticks=range(len(changes)), yticklabels=[label for label, _ in changes], ylim=(len(changes) - 0.5, -0.5))
-    betas.yaxis.set_minor_locator(NullLocator())
     betas.set_xlabel(r"exponent $\beta$ less $H/(1+H)$")
     zetas.set(xlabel=r"prefactor $\zeta$ over $2−H$", xscale="log")
     counts = discs.groupby(discs["case_group"] != "base")["realizations"]

@@ -55,7 +55,6 @@ def plot_failure_map(table):
     axes.set_xticks(range(len(methods)), methods, rotation=90)
     axes.set_yticks(range(len(rows)), [f"{group}: {case}" for group, case in rows])
     axes.tick_params(which="both", length=0, top=False, labeltop=True, labelbottom=False, right=False)
-    axes.minorticks_off()
     for column in range(1, len(methods)):
         axes.axvline(column - 0.5, color="white", linewidth=0.6)
     for row, ((last, _), (group, _)) in enumerate(pairwise(rows), 1):

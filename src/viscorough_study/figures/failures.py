@@ -64,4 +64,3 @@ def _draw_bars(axes, table):
     axes.set(xlim=(0, 1.2), ylim=(len(names) - 0.4, -1.2), xlabel=SHARE)
     axes.set_xticks([0, 0.5, 1], ["0", "50 %", "100 %"])
     axes.tick_params(which="both", length=0)
-    axes.minorticks_off()

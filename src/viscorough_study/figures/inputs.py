@@ -29,6 +29,12 @@ def discs(path):
     return [by_hurst[hurst] for hurst in sorted(by_hurst)]
 
 
+def longer_period(path):
+    """Read the curves of the discs of reading B; return a list of ensembles, one for each Hurst exponent."""
+    by_hurst = pool.ensembles(pool.select(read_dataset(path), group="longer_period"), "hurst")
+    return [by_hurst[hurst] for hurst in sorted(by_hurst)]
+
+
 def lines(path):
     """Read the MDR lines; return a list of ensembles, one for each Hurst exponent."""
     return list(pool.ensembles(read_dataset(path), "hurst").values())
@@ -40,4 +46,11 @@ def groups(path):
 
 
 # {argument of functions that draw figures: function that reads it}
-READERS = {"examples": examples, "ensembles": ensembles, "discs": discs, "lines": lines, "groups": groups}
+READERS = {
+    "examples": examples,
+    "ensembles": ensembles,
+    "discs": discs,
+    "longer_period": longer_period,
+    "lines": lines,
+    "groups": groups,
+}

@@ -15,7 +15,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.style import context
-from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator
 from PIL import Image  # matplotlib depends on Pillow, so it is installed
 from PIL.PngImagePlugin import PngInfo
 
@@ -52,12 +52,8 @@ STYLE = {
     "axes.labelsize": 8,
     "figure.labelsize": 8,
     "axes.linewidth": 0.6,
-    "xtick.direction": "in",
-    "ytick.direction": "in",
-    "xtick.top": True,
-    "ytick.right": True,
-    "xtick.minor.visible": True,
-    "ytick.minor.visible": True,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
     "lines.linewidth": 1.0,
     "lines.markersize": 4,
     "errorbar.capsize": 2,
@@ -87,8 +83,7 @@ def figure(plot):
             return _without_data()
         drawn = plot(*arguments, **options)
         for axes in drawn.axes:
-            # Turn off the labels of minor ticks. They are empty, but matplotlib would measure each label.
-            axes.tick_params(which="minor", labelbottom=False, labelleft=False)
+            axes.minorticks_off()
             for axis in (axes.xaxis, axes.yaxis):
                 if axis.get_scale() == "log" and not isinstance(axis.get_major_locator(), FixedLocator):
                     _set_ticks(axis)
@@ -260,15 +255,12 @@ def mark_with_interval(axes, x, y, interval, look, along="y"):
 def _set_ticks(axis):
     """Set the ticks of a logarithmic axis.
 
-    Major ticks are at decades. An axis of few decades also has major ticks at 2 and 5 times each decade. An axis of
-    less than one decade has evenly spaced major ticks. If not every decade has a major tick, minor ticks mark the other
-    decades; otherwise minor ticks divide the decades.
+    Ticks are at decades, and on an axis of few decades also at 2 and 5 times each decade. An axis of less than one
+    decade has evenly spaced ticks. There are no minor ticks.
     """
     decades = np.ptp(np.log10(axis.get_view_interval()))
     axis.set_major_locator(LogLocator(numticks=9))
-    axis.set_minor_locator(LogLocator(subs=(1.0,) if decades > 8 else np.arange(2, 10), numticks=200))
     if decades < FEW_DECADES:
         evenly = MaxNLocator(6, steps=(1, 2, 5, 10))
         axis.set_major_locator(evenly if decades < 1 else LogLocator(subs=(1.0, 2.0, 5.0), numticks=20))
         axis.set_major_formatter(FuncFormatter(lambda value, _: readable(value)))
-    axis.set_minor_formatter(NullFormatter())

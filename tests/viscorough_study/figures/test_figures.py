@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from matplotlib.colors import to_rgb
 from matplotlib.text import Text
 
 from support import figures as tables
@@ -190,31 +189,29 @@ def test_surfaces_are_darker_where_higher():
     assert (np.diff(grey) < 0).all()
 
 
-@pytest.mark.parametrize("average", ["geometric", "arithmetic"])
-def test_master_curve_shows_both_sides_of_the_law(pooled, lines, scaling, average):
-    conventions = SHOWN | {"average": average}
-    law, ratio = plot("master_curve", pooled, lines, scaling, conventions, fraction_min=0.95).axes
+def test_master_curve_is_bold_in_region_b_of_each_reading(pooled, lines, scaling):
+    """The second reading has the ensemble of its square and the windows of its own rows."""
+    law, *ratios = plot("master_curve", pooled, pooled[:1], lines, scaling, SHOWN, fraction_min=0.95).axes
     (identity,) = dashed(law)
     np.testing.assert_array_equal(identity.get_xdata(), identity.get_ydata())
-    np.testing.assert_array_equal(dashed(ratio)[0].get_ydata(), 1)
-    windows = fits(scaling, conventions, source="discs", case_group="base").set_index("hurst")
-    for rank, ensemble in enumerate(pooled):
-        hurst, discs = ensemble["hurst"].item(), ensemble.sel(rms_convention="disc")
-        right, left = reference.rate_law(X, hurst, gamma=True), discs[f"velocity_{average}"].values
-        window = (windows.x_low[hurst] * 0.999 < X) & (windows.x_high[hurst] * 1.001 > X)
-        for (marks, _, bars), inside in zip(law.containers[2 * rank : 2 * rank + 2], (True, False), strict=True):
-            x, y = marks.get_data()
-            at = np.searchsorted(right, x * (1 - 1e-9))
-            close([x, y], [right[at], left[at]])
-            assert (window[at] == inside).all()
-            assert x.size >= 3
-            assert (to_rgb(marks.get_markerfacecolor()) != (1, 1, 1)) == inside
-            error = 2 * discs["velocity_spread"].values[at] / np.sqrt(discs["realizations_defined"].values[at])
-            ends = np.array([segment[:, 1] for segment in bars[0].get_segments()])
-            np.testing.assert_allclose(np.log(ends / y[:, None]), np.transpose([-error, error]), atol=1e-9)
-    for ensemble, line in zip(lines, [line for line in law.lines if line.get_zorder() == 3], strict=True):
+    for axes, members, (group, rms) in zip(
+        ratios, (pooled, pooled[:1]), (("base", "disc"), ("longer_period", "square")), strict=True
+    ):
+        np.testing.assert_array_equal(dashed(axes)[0].get_ydata(), 1)
+        windows = fits(scaling, SHOWN, source="discs", case_group=group, rms_convention=rms).set_index("hurst")
+        curves = [line for line in axes.lines if len(line.get_xdata()) > 2]
+        for ensemble, thin, bold in zip(members, curves[::2], curves[1::2], strict=True):
+            hurst, discs = ensemble["hurst"].item(), ensemble.sel(rms_convention=rms)
+            expected = discs["velocity_geometric"].values / reference.rate_law(X, hurst, gamma=True)
+            kept = (discs["contact_count_median"].values > 1) & (discs["fraction_defined"].values >= 0.95)
+            close(thin.get_xydata(), np.transpose([X, expected])[kept])
+            inside = kept & (windows.x_low[hurst] * 0.999 < X) & (windows.x_high[hurst] * 1.001 > X)
+            close(bold.get_xydata(), np.transpose([X, expected])[inside])
+            assert bold.get_linewidth() > 2 * thin.get_linewidth()
+    dotted = [line for line in law.lines if line.get_linestyle() == ":"]
+    for ensemble, line in zip(lines, dotted, strict=True):
         kept = (ensemble["contact_count_median"].values[0] > 1) & (ensemble["fraction_defined"].values[0] == 1)
-        close(line.get_ydata(), ensemble[f"velocity_{average}"].values[0][kept])
+        close(line.get_ydata(), ensemble["velocity_geometric"].values[0][kept])
 
 
 def test_master_curve_of_one_realization_without_region(discs, lines, scaling):
@@ -222,10 +219,10 @@ def test_master_curve_of_one_realization_without_region(discs, lines, scaling):
     for ds in single:  # as the ensemble of one realization has it
         ds["velocity_spread"] = ds["velocity_spread"] * np.nan
         ds["realizations_defined"] = ds["realizations_defined"] * 0 + 1
-    figure = plot("master_curve", single, lines[:1], without_region(scaling, 0.4), SHOWN, fraction_min=0.95)
-    inside, outside = figure.axes[0].containers[:2]
-    assert inside[0].get_xdata().size == 0
-    assert outside[0].get_xdata().size > 3
+    figure = plot("master_curve", single, [], lines[:1], without_region(scaling, 0.4), SHOWN, fraction_min=0.95)
+    thin, bold = figure.axes[1].lines[:2]
+    assert bold.get_xdata().size == 0
+    assert thin.get_xdata().size > 3
 
 
 def test_laws_of_others_stand_beside_the_interface(drawn):

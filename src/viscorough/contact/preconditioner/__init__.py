@@ -15,6 +15,6 @@ The rest of the solver imports only the names below. Another preconditioner ther
 tests, its layers in pyproject.toml, and docs/solver.md.
 """
 
-from viscorough.contact.preconditioner.multilevel import BYTES_PER_PLACE, LEAST_EIGENVALUE, Preconditioner
+from viscorough.contact.preconditioner.multilevel import LEAST_EIGENVALUE, Preconditioner
 
-__all__ = ["BYTES_PER_PLACE", "LEAST_EIGENVALUE", "Preconditioner"]
+__all__ = ["LEAST_EIGENVALUE", "Preconditioner"]

@@ -42,9 +42,6 @@ from viscorough.contact.preconditioner.sparse_factor import SparseFactor
 # Lower bound of the eigenvalues of M K, with the preconditioner M and the influence matrix K
 # (tests/viscorough/contact/preconditioner/test_multilevel.py).
 LEAST_EIGENVALUE = 0.35
-# Bytes of the arrays of the preconditioner per entry of a flat field. The sparse factor alone has fourteen one-byte
-# entries.
-BYTES_PER_PLACE = 25
 # Number of elements along each side of the square around an element that contains all its neighbours.
 _ACROSS = 2 * BORDER + 1
 # Positions (row, column), relative to a block, of its neighbours: the four nearest blocks that come before the block.

@@ -50,6 +50,15 @@ def test_force_of_a_dashpot_is_taken_just_after_each_time():
     np.testing.assert_allclose(result.force[1:], expected, rtol=1e-4)
 
 
+def test_force_of_a_dashpot_has_the_stiffness_of_the_curve():
+    """The stiffness of the row jumps from spring to spring, by up to 0.2 %, which the force must not show."""
+    curve = curve_of_body(SPHERE, np.geomspace(1e-6, 1, 61), tolerance=1e-2)
+    times = np.linspace(0.0, 2.0, 41)
+    motion = kinetics(curve, depth=0.4 * times, medium=MEDIA["newtonian"], times=times)
+    expected = MEDIA["newtonian"].viscosity * 0.4 * curve.at_depth(motion.depth[1:])[1]
+    np.testing.assert_allclose(motion.force[1:], expected, rtol=1e-9)
+
+
 def test_invalid_histories_are_refused():
     for arguments, message in (
         (

@@ -86,7 +86,7 @@ def test_no_log_holds_a_warning(finished_once):
 
 
 def test_timed_jobs_ran_alone(finished_once):
-    timed, running, most = ("Cost and error of every",), {}, 0
+    timed, running, most = ("Cost and error of every method", "Cost and error of every model of one surface"), {}, 0
     log = (finished_once / "run.log").read_text()
     for job, message, finished in re.findall(r"^Job (\d+): (.*)$|^Finished jobid: (\d+)", log, re.MULTILINE):
         running.pop(finished, None)

@@ -169,15 +169,16 @@ def test_values_at_a_sample_are_the_limits_just_after_it(number):
 
 
 @pytest.mark.parametrize("duration", [1.0, 1e4])
-@pytest.mark.parametrize("number", range(0, 40, 2))
-def test_deflections_add_up_to_the_creep_response_in_the_largest_contact(number, duration):
+def test_deflections_add_up_to_the_creep_response_in_the_largest_contact(duration):
     """After a long hold a fluid carries the same pressure everywhere, so all springs touch at once in a reload."""
-    gaps, weights, medium, times, force, _ = random_case(number)
-    load = Load(duration * times, force=force)
-    motion = moved(gaps, weights, medium, load.time, load.values, by_depth=False)
-    creep = creep_response(spectrum_of(medium.relaxation, medium.retardation), load)
-    largest = motion.largest
-    np.testing.assert_allclose(motion.deflection[largest], creep[largest], rtol=0, atol=1e-10 * creep.max())
+    for number in range(0, 400, 2):
+        gaps, weights, medium, times, force, _ = random_case(number)
+        load = Load(duration * times, force=force)
+        motion = moved(gaps, weights, medium, load.time, load.values, by_depth=False)
+        creep = creep_response(spectrum_of(medium.relaxation, medium.retardation), load)
+        largest = motion.largest
+        found, expected = motion.deflection[largest], creep[largest]
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-10 * creep.max(), err_msg=number)
 
 
 @pytest.mark.parametrize("number", range(40))

@@ -17,6 +17,7 @@ import pandas as pd
 from scipy.special import gamma as gamma_function
 
 from viscorough.reference import exponent_alpha, exponent_beta, zeta_elastic, zeta_viscous
+from viscorough_study.fits import fine_sentence
 from viscorough_study.fits.zeta_laws import LAST
 from viscorough_study.run.paper_data import read_paper
 from viscorough_study.verdicts.answer import answer, short_answer
@@ -27,11 +28,11 @@ PAGES = [ROOT / "README.md", *(ROOT / "docs").glob("*.md")]
 # Results that pages quote, but that are not made by `make paper`.
 OTHER_SOLVERS = "resources/published/other_solvers.csv"
 FIRST_MINUTES = "resources/published/first_minutes.csv"
+FINE_EXPONENTS = fine_sentence.PUBLISHED
 DEFAULT_COSTS, DEFAULT_CLAIMS = "resources/published/default_costs.csv", "resources/published/default_claims.csv"
 BLOCK = re.compile(r"(<!-- ([\w ]+): by benchmarks/pages\.py -->\n).*?(<!-- end of \2 -->\n)", re.DOTALL)
 NUMBER = re.compile(r"(<!--n:([\w ]+)-->).*?(<!--/n-->)", re.DOTALL)
 CLAIMS = read_paper(ROOT / "resources/paper", "claims")
-INTERFACE_QUANTITIES = {"whole": "*vt*/*h*", "interface": "*g*"}
 
 
 def written(text, page_blocks, page_numbers):
@@ -223,17 +224,17 @@ def constants():
 
 
 def fine_grids():
-    """Return the exponents of fine grids as a Markdown table."""
-    table = results("fine_exponents").query("judged == 1")
-    names = ["beta", "limit"]
-    cells = {name: filled(f"{{{name}:.3f}} [{{{name}_low:.3f}}, {{{name}_high:.3f}}]", table) for name in names}
-    rows = [
-        f"| {row.hurst:g} | {INTERFACE_QUANTITIES[row.quantity]} | {row.x_low:.2g} | {row.across} | {beta} | "
-        f"{'not determined' if pd.isna(row.limit) else limit} | {row.expected:.3f} | {row.finding} |"
-        for row, beta, limit in zip(table.itertuples(), cells["beta"], cells["limit"], strict=True)
-    ]
-    head = "| *H* | quantity | decade from *X* = | elements across | *β* on this grid | limit of fine grids "
-    return markdown_table(head + "| *H*/(1 + *H*) | finding |", rows)
+    """Return the sentence on fine grids, and their exponents as a Markdown table."""
+    rows = fine_sentence.judged_rows(ROOT)
+    row = (
+        "| {hurst:g} | {x_low:.2g} | {beta:.3f} [{beta_low:.3f}, {beta_high:.3f}] | {limit_low:.3f} to "
+        "{limit_high:.3f} | {expected:.3f} | {finding} | {power:.2f} |"
+    )
+    across = rows[0]["across"]
+    tolerance = f"{fine_sentence.TOLERANCE:g}"
+    head = f"| *H* | decade from *X* = | *β* on {across} | limit | *H*/(1 + *H*) | limit within {tolerance} | chance |"
+    table = markdown_table(head, filled(row, pd.DataFrame(rows)))
+    return paragraph(fine_sentence.fine_grids_sentence(rows)) + "\n" + table
 
 
 def sufficient_models():

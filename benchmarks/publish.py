@@ -20,7 +20,7 @@ import click
 import pages
 import pandas as pd
 from measuring import write_json
-from pages import DEFAULT_CLAIMS, DEFAULT_COSTS, OTHER_SOLVERS, ROOT
+from pages import DEFAULT_CLAIMS, DEFAULT_COSTS, FINE_EXPONENTS, OTHER_SOLVERS, ROOT
 from PIL import Image  # matplotlib depends on it
 
 from viscorough_study.performance import timing
@@ -46,7 +46,7 @@ PUBLISHED = {
         "methods other_solvers one_surface mean_accuracy sufficient_models",
     ),
     "stability": _made("failures failure_map", "failure_map", "campaign.json"),
-    "sizes": _made("sizes local_exponent", "sizes fine_exponents fine_velocities fine_costs"),
+    "fine-grids": _made("local_exponent"),
     "large": _made(tables="large"),
     "bench": ["benchmarks.json"],
     "law": _made(tables="law"),
@@ -59,6 +59,7 @@ KEPT = {
         "tables/claims.csv": "docs/claims.csv",
         "tables/calibration.csv": "src/viscorough/law/data/calibration.csv",
     },
+    "fine-grids": {"tables/fine_exponents.csv": FINE_EXPONENTS},
     "law": {"tables/law.csv": "src/viscorough/law/data/law.csv"},
     "reproduce": {
         "tables/rule_costs.csv": DEFAULT_COSTS,

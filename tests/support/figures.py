@@ -11,6 +11,7 @@ from support.workflow import FIGURES, ROOT
 from viscorough.law.calibrated_law import CONSTANTS, interface_velocity, penetration_law
 from viscorough_study.comparisons.histories import FORCE_CURVE, RECOVERY
 from viscorough_study.ensembles.averages import abscissa
+from viscorough_study.fits.fine_sentence import PUBLISHED, judged_rows
 from viscorough_study.fits.fit_table import COLUMNS as SCALING_COLUMNS
 
 HURST = (0.4, 0.9)
@@ -110,16 +111,17 @@ def interface_curves():
     return pd.concat(curves, ignore_index=True)
 
 
+FINE_GRIDS = judged_rows(ROOT)
 OTHER_SOLVERS = pd.read_csv(ROOT / "resources/published/other_solvers.csv").to_dict("records")
 FROM_TABLES = {  # arguments of the figures that are drawn from tables alone
     "conventions": (published("scaling"), SHOWN),
     "direct": (published("direct"),),
     "failure_map": (published("failure_map"),),
     "failures": (published("failure_map"),),
-    "fig4_exponent": (published("scaling"), published("fine_exponents"), SHOWN, (0.4, 1.0)),
+    "fig4_exponent": (published("scaling"), SHOWN, (0.4, 1.0), FINE_GRIDS),
     "histories": (histories_table(),),
     "interface": (published("interface"), interface_curves(), published("literature"), published("periodic")),
-    "local_exponent": (published("fine_exponents"),),
+    "local_exponent": (pd.read_csv(ROOT / PUBLISHED),),
     "mdr_lambda": (published("mdr_lambda"), published("mdr_exponents")),
     "media": (media_table(),),
     "reduction": (published("reduction"),),

@@ -103,6 +103,7 @@ os.environ.setdefault("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1")  # use large p
 try:
     use_packages_of_checkout()
     from viscorough.io.atomic import path_named
+    from viscorough_study.fits.fine_sentence import judged_rows
     from viscorough_study.run import cases
     from viscorough_study.run.kernels import KERNELS_BENCHMARK, compile_once
     from viscorough_study.run.made_with import difference, origin
@@ -270,7 +271,7 @@ def benchmark_files(without=()):
     # module may have further rules, which are in another folder. Also not documented: both functions of wildcards, which
     # understand the regular expressions that Snakemake adds to the names of files.
     own = [rule for rule in workflow.rules if rule.benchmark and Path(rule.basedir).is_relative_to(WORKFLOW)]
-    jobs = [job | {"format": "png"} for job in cases.pool_jobs(CASES)] + [{"nested": name} for name in NESTED]
+    jobs = [job | {"format": "png"} for job in cases.pool_jobs(CASES)]
     files = {}
     for member in (member for member in own if member not in without):
         described = [job for job in jobs if get_wildcard_names(member.benchmark) <= job.keys()]

@@ -52,26 +52,26 @@ rule reduce_lines:
         "../scripts/reduce_lines.py"
 
 
-# The same discs on two neighbouring grids. They are generated in the job that indents them: a disc of 4097 x 4097
-# elements takes 134 MB.
+# The same discs on several grids. They are generated in the job that indents them: a disc of 4097 x 4097 elements takes
+# 134 MB.
 rule indent_nested:
     output:
-        curves="results/curves/nested/{nested}.nc",
+        curves="results/curves/nested/{nested}/{batch}.nc",
     log:
-        "results/logs/indent_nested/{nested}.log",
+        "results/logs/indent_nested/{nested}/{batch}.log",
     benchmark:
-        "results/benchmarks/indent_nested/{nested}.tsv"
+        "results/benchmarks/indent_nested/{nested}/{batch}.tsv"
     conda:
         "../envs/viscorough.yaml"
     resources:
         mem_mb=lambda wildcards: cases.nested_memory(NESTED[wildcards.nested]),
     params:
-        case=lambda wildcards: NESTED[wildcards.nested],
+        case=lambda wildcards: cases.nested_arguments(NESTED[wildcards.nested], wildcards.batch),
         tolerance=config["nested_grids"]["tolerance"],
         seed=config["seed"],
         source=digest("indent_nested"),
     message:
-        "Boundary elements on two neighbouring grids, {wildcards.nested}"
+        "Boundary elements on several grids, {wildcards.nested}, discs {wildcards.batch}"
     script:
         "../scripts/indent_nested.py"
 

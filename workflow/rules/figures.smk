@@ -92,7 +92,6 @@ use rule plot_surfaces as plot_master_curve with:
 use rule plot_surfaces as plot_exponent with:
     input:
         scaling="results/tables/scaling.csv",
-        fine_exponents="results/tables/fine_exponents.csv",
     output:
         path=report(
             "results/figures/fig4_exponent.{format}",
@@ -109,6 +108,7 @@ use rule plot_surfaces as plot_exponent with:
         options={
             "conventions": config["figures"],
             "hurst_range": paper("laws")["beta"]["hurst_range"],
+            "fine_grids": judged_rows(PROJECT),
         },
         source=digest("plot", figure="exponent"),
     message:
@@ -453,7 +453,6 @@ rule figures:
                 "media",
                 "histories",
                 "sizes",
-                "local_exponent",
             ],
         ),
 
@@ -495,8 +494,8 @@ rule stability:
         "results/figures/failure_map.png",
 
 
-rule sizes:
-    """Exponents on grids from coarse to fine, and of an infinitely fine grid."""
+rule fine_grids:
+    """Exponents of small X on fine grids, and their limits."""
     input:
-        "results/figures/sizes.png",
+        "results/tables/fine_exponents.csv",
         "results/figures/local_exponent.png",

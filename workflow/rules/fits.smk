@@ -219,13 +219,9 @@ rule compare_grids:
 
 rule fit_fine_grids:
     input:
-        curves=expand("results/curves/nested/{nested}.nc", nested=NESTED),
+        curves=cases.nested_files(NESTED),
     output:
-        csv=[
-            "results/tables/fine_exponents.csv",
-            "results/tables/fine_velocities.csv",
-            "results/tables/fine_costs.csv",
-        ],
+        csv="results/tables/fine_exponents.csv",
     log:
         "results/logs/fit_fine_grids.log",
     benchmark:
@@ -237,10 +233,9 @@ rule fit_fine_grids:
         mem_mb=2000,
     params:
         elements_min=config["nested_grids"]["elements_min"],
-        tolerance=paper("claims")["beta"]["tolerance"],
         seed=config["seed"],
         source=digest("fit_fine_grids"),
     message:
-        "Exponents of small X on fine grids, and of an infinitely fine grid"
+        "Exponents of small X on fine grids, and their limits"
     script:
         "../scripts/fit_fine_grids.py"

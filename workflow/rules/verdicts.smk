@@ -16,7 +16,6 @@ rule judge_claims:
             "results/tables/methods.csv",
             "results/tables/sizes.csv",
             "results/tables/grid_dependence.csv",
-            "results/tables/fine_exponents.csv",
             "results/tables/histories.csv",
         ],
     output:
@@ -34,6 +33,7 @@ rule judge_claims:
     params:
         claims=paper("claims"),
         numbers=paper("numbers"),
+        fine_grids=judged_rows(PROJECT),
         rules=config["verdicts"],
         conventions=config["figures"],
         surfaces=cases.surfaces_left_open(config),

@@ -1,4 +1,4 @@
-"""Compute the curves of the same discs on a grid and on the next coarser grid; no disc is stored."""
+"""Compute the curves of the same discs on several grids; no disc is stored."""
 
 from viscorough.io import netcdf
 from viscorough_study.ensembles.nested_grids import nested_curves
@@ -9,7 +9,7 @@ from viscorough_study.run.made_with import made_with_text
 def main(curves, *, case, tolerance, seed):
     """Generate and indent the discs of a case, and write their curves.
 
-    curves : file to write; case : arguments of `nested_curves`, from `run.cases.nested_cases`
+    curves : file to write; case : arguments of `nested_curves`, from `run.cases.nested_arguments`
     tolerance, seed : further arguments of `nested_curves`
     """
     content = nested_curves(**case, tolerance=tolerance, seed=seed)

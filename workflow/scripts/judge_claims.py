@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import pandas as pd
+
 from viscorough.io.atomic import atomic_write
 from viscorough.io.datasets import read_dataset
 from viscorough_study.ensembles.pool import select
@@ -11,16 +13,17 @@ from viscorough_study.verdicts.claims import COLUMNS, judge, markdown, scale_att
 from viscorough_study.verdicts.evidence import Evidence
 
 
-def main(discs, tables, csv, verdicts, *, claims, **settings):
+def main(discs, tables, csv, verdicts, *, claims, fine_grids, **settings):
     """Judge the claims by the loading curves of the base discs (group "base") and by tables, and write the verdicts.
 
     discs : file with the loading curves of discs of all groups; tables : CSV files, named after the tables
     csv, verdicts : files to write, the table and Markdown
-    claims : content of resources/paper/claims.yaml; settings : further fields of `Evidence`
+    claims : content of resources/paper/claims.yaml; fine_grids : published rows from fits.fine_sentence.judged_rows
+    settings : further fields of `Evidence`
     """
     evidence = Evidence(
         discs=select(read_dataset(discs), group="base"),
-        tables={Path(path).stem: read_table(path) for path in tables},
+        tables={Path(path).stem: read_table(path) for path in tables} | {"fine_exponents": pd.DataFrame(fine_grids)},
         **settings,
     )
     table = judge(claims, evidence)

@@ -8,6 +8,9 @@ the coarse grid. Every second point of the fine map has not: it contains the sho
 
 The number of points across is odd, and r = 0 is the central point of every grid. The centres of the discs coincide.
 
+The heights z and −z have the same distribution, and other elements of them touch first. Every disc is therefore
+indented from both sides, which gives two curves for one surface; most of the time at 4097 points is its generation.
+
 The rms height h that makes curves dimensionless contains all waves of the spectrum, also those that no grid has:
 h² is the variance of the heights over the disc plus the expected variance of all waves with |k| > n/2. It depends only
 on the map itself, so a difference between two grids contains the same quantity of each grid as an independent map does.
@@ -20,6 +23,7 @@ import numpy as np
 from ducc0 import fft
 
 from viscorough.contact.loading_path import indent
+from viscorough.contact.options import SolverOptions
 from viscorough.io.netcdf import Content, Variable
 from viscorough.surfaces.indenter import Indenter
 from viscorough.surfaces.self_affine import cut_disc
@@ -31,6 +35,10 @@ _LATTICE = 256
 _RMS = 1e-3
 # Abscissae of a curve per decade of X, and its first X, below which a single element touches on every grid.
 PER_DECADE, _X_LOW = 20, 1e-9
+# Solve contacts of up to this many elements with a dense matrix. They are spread over the whole disc, so that an
+# iteration on the grid takes longer.
+_OPTIONS = SolverOptions(dense_contacts=1500, dense_interactions=20_000_000)
+_SIDES = (1.0, -1.0)  # factors of the heights of a disc
 # Curves extend beyond their last abscissa by this relative distance, so that rounding does not exclude it.
 _ROUNDING = 1e-9
 
@@ -103,38 +111,44 @@ def curve_of_disc(disc, hurst, x, tolerance):
     rms = np.sqrt(np.nanvar(disc) + wave_variances(hurst, across)[1])
     force = 4 * _RMS * x
     indenter = Indenter(disc * (_RMS / rms), 1 / across)
-    curve = indent(indenter, tolerance=tolerance, until_fraction=1.0, until_force=force[-1] * (1 + _ROUNDING))
+    until_force = force[-1] * (1 + _ROUNDING)
+    curve = indent(indenter, tolerance=tolerance, until_fraction=1.0, until_force=until_force, options=_OPTIONS)
     stiffness = curve.at_force(force)[1] / 4
     return np.log(x / stiffness), np.exp(np.interp(np.log(force), np.log(curve.force), np.log(curve.contact_count)))
 
 
-def nested_curves(hurst, elements, surfaces, *, until_x, tolerance, seed, spawn_key):
-    """Compute the curves of the same discs on a grid and on the next coarser grid; return them as a Content.
+def nested_curves(hurst, elements, numbers, *, until_x, tolerance, seed, spawn_key):
+    """Compute the curves of the same discs on several grids; return them as a Content.
 
-    hurst : Hurst exponent; surfaces : number of discs
-    elements : [elements across on the grid], or [on the grid, on the next coarser grid]
+    hurst : Hurst exponent
+    elements : elements across on the grids, from fine to coarse; the waves are drawn for the first grid
+    numbers : [first, end] of the numbers of the discs; end is not included
     until_x : X = F/(4GhL) at which the curves end
     tolerance : argument of viscorough.indent
     seed, spawn_key : root seed and spawn key of the discs; the seed of a disc has the key followed by its number
 
-    The variables have the dimensions (surface, grid, abscissa), with grid 0 the finer grid. The processor time of a
-    curve includes the generation of the disc.
+    The variables have the dimensions (surface, side, grid, abscissa), with side 0 for z and side 1 for −z, and with
+    grid 0 the finest grid. The processor time of a grid includes the generation of the disc and both curves.
     """
-    x, shape = abscissa(_X_LOW, until_x, PER_DECADE), (surfaces, len(elements))
+    numbers = range(*numbers)
+    x, shape = abscissa(_X_LOW, until_x, PER_DECADE), (len(numbers), len(_SIDES), len(elements))
     logarithm, count = np.empty((2, *shape, len(x)))
-    seconds = np.empty(shape)
-    for number in range(surfaces):
+    seconds = np.empty((len(numbers), len(elements)))
+    for surface, number in enumerate(numbers):
         start = time.process_time()
         waves = surface_waves(hurst, elements[0], np.random.SeedSequence(seed, spawn_key=(*spawn_key, number)))
         for grid, across in enumerate(elements):
             disc = disc_of_waves(waves if grid == 0 else coarser_waves(waves, across))
-            logarithm[number, grid], count[number, grid] = curve_of_disc(disc, hurst, x, tolerance)
-            seconds[number, grid], start = time.process_time() - start, time.process_time()
-    axes = ("surface", "grid")
+            for side, sign in enumerate(_SIDES):
+                logarithm[surface, side, grid], count[surface, side, grid] = curve_of_disc(
+                    sign * disc, hurst, x, tolerance
+                )
+            seconds[surface, grid], start = time.process_time() - start, time.process_time()
+    axes = ("surface", "side", "grid", "abscissa")
     described = {
-        "log_velocity": ((*axes, "abscissa"), logarithm, "ln(vt/h), with h over all waves of the spectrum", "1"),
-        "contact_count": ((*axes, "abscissa"), count, "elements in contact", "1"),
-        "processor_s": (axes, seconds, "processor time of a disc and its curve", "s"),
+        "log_velocity": (axes, logarithm, "ln(vt/h), with h over all waves of the spectrum", "1"),
+        "contact_count": (axes, count, "elements in contact", "1"),
+        "processor_s": (("surface", "grid"), seconds, "processor time of a disc and its two curves", "s"),
         "elements": (("grid",), np.array(elements), "elements across the disc", "1"),
         "hurst": ((), np.array(hurst), "Hurst exponent", "1"),
         "x": (("abscissa",), x, "dimensionless force F/(4GhL) or time Ft/(4ηhL)", "1"),
@@ -143,4 +157,4 @@ def nested_curves(hurst, elements, surfaces, *, until_x, tolerance, seed, spawn_
         name: Variable(dimensions, values, {"long_name": text, "units": units})
         for name, (dimensions, values, text, units) in described.items()
     }
-    return Content(variables, {"title": "Curves of the same discs on neighbouring grids"})
+    return Content(variables, {"title": "Curves of the same discs on several grids"})

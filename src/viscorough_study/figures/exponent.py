@@ -13,14 +13,14 @@ SHIFT = 0.015
 
 
 @style.figure
-def plot_exponent(scaling, fine_exponents, conventions, hurst_range):
+def plot_exponent(scaling, conventions, hurst_range, fine_grids):
     """Draw β of MDR lines and of discs, with 95 % intervals, and β of Eq. 10, all against the Hurst exponent H.
 
-    Open diamonds are β of discs at smaller X on finer grids, in the decades of X by which the limit is judged.
+    Open diamonds are the published β of discs at smaller X on finer grids, in the decades by which the limit is judged.
     scaling : table of fitted power laws
-    fine_exponents : table of fits.fine_grids with the columns `EXPONENTS`
     conventions : {column of the table: value}, which select the fits that are drawn (fits.conventions)
     hurst_range : range of H in which the paper finds Eq. 10 accurate (resources/paper/laws.yaml)
+    fine_grids : published rows from fits.fine_sentence.judged_rows
     """
     looks = style.hurst_looks(scaling.loc[scaling["source"] == "discs", "hurst"])
     figure, axes = style.new_subplots(82, width=style.NARROW)
@@ -44,12 +44,11 @@ def plot_exponent(scaling, fine_exponents, conventions, hurst_range):
         text = f"boundary elements, {style.count_text(discs['realizations'])} discs for each $H$:\n$H$ = {names}"
         legend[text] = symbols
         apart[symbols] = HandlerTuple(ndivide=None)  # the markers side by side, not on top of each other
-    fine = fine_exponents[(fine_exponents["quantity"] == "whole") & (fine_exponents["judged"] == 1)]
-    for row in fine.itertuples():
-        style.mark_with_interval(axes, row.hurst + SHIFT, row.beta, (row.beta_low, row.beta_high), FINE)
-    if len(fine):
-        text = f"boundary elements, {style.count_text(fine['across'])} across, smaller $X$"
-        legend[text] = style.handle("", **FINE)
+    for row in fine_grids:
+        style.mark_with_interval(axes, row["hurst"] + SHIFT, row["beta"], (row["beta_low"], row["beta_high"]), FINE)
+    if fine_grids:
+        across = max(row["across"] for row in fine_grids)
+        legend[f"{across:g} across, smaller $X$ (published: make fine-grids)"] = style.handle("", **FINE)
     figure.legend(legend.values(), legend.keys(), loc="outside upper center", handler_map=apart, handlelength=4.5)
     axes.set(xlim=(-0.02, 1.04), xlabel="Hurst exponent $H$", ylabel=r"exponent $\beta$")
     axes.set_ylim(bottom=min(0, axes.get_ylim()[0]))

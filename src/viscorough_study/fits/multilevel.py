@@ -1,199 +1,146 @@
-"""Estimate the local exponent β and vt/h on the finest of several grids, and for an infinitely fine grid.
+"""Estimate the mean of a quantity on several grids from the same surfaces, and bound its limit on finer grids.
 
-The same surfaces are indented on neighbouring grids (viscorough_study.ensembles.nested_grids), and the differences of
-ln(vt/h) at fixed X between the two grids are averaged. From a grid b, the mean on the finest grid N is the sum
+A nest is a set of surfaces that are indented on the same grids (viscorough_study.ensembles.nested_grids). Many surfaces
+on coarse grids and few on the finest give the means β on all grids. Nest g with n_g surfaces gives the mean vector y_g
+on its grids, with the covariance C_g = Σ_g/n_g. The matrix R_g selects these grids from all grids. Generalised least
+squares over all nests is the unbiased linear estimate with the smallest variance,
 
-    E[Y_N] = E[Y_b] + Σ E[Y_l − Y_(l−1)]        over the grids l that are finer than b
+    β = (Σ R_g' C_g⁻¹ R_g)⁻¹ Σ R_g' C_g⁻¹ y_g        (Schaden and Ullmann, SIAM/ASA JUQ 8, 601 (2020))
 
-(multilevel Monte Carlo: Giles, Oper. Res. 56, 607 (2008)). The surfaces of different grids are independent. With b = N
-this is plain averaging on the finest grid. For every quantity the sum starts at the grid b with a short interval,
-so plain averaging is used where pairs of grids scatter too much. `optimal_surfaces` allocates surfaces to grids.
+Coarse grids with many surfaces are control variates of the finer grids. Σ_g is measured, from all nests whose surfaces
+are indented on all grids of g. A matrix from other surfaces for each of its elements need not be positive definite: the
+grids are so similar that the variance of a difference is small beside the variances.
 
-Beyond the finest grid, the last differences D_l are continued as a geometric sequence, D_l = A r^l. The remainder is
-the sum of all further differences, A r^(N+1)/(1 − r). If the 95 % interval of r reaches 1, the sequence need not
-converge, and the limit is undecided.
-
-Two quantities Y are evaluated: ln(vt/h), and the logarithm of the part of the interface, g = vt/h − X/κ_c, where κ_c is
-the stiffness of the flat punch on the grid. X = F/(4GhL) is the reduced force. β(X) is the slope of a straight line
-through Y over a decade of ln X. Y and β are linear in the curves, so a mean over surfaces is the geometric mean.
+Waves beyond the finest grid change the mean less and less. Their contribution to the rms height falls like q^−H with
+the wave number q, so the ratio r of successive differences is at most (coarse/fine)^H, with the numbers of elements
+across the last two grids. With the last difference D, the remainder is D r/(1 − r). The interval of the limit is the
+union of the intervals for all r from 0 to the bound; the remainder is monotonic in r, so the two ends suffice.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import chdtri, stdtrit
-
-from viscorough_study.fits.intervals import NO_INTERVAL
-
-DIFFERENCES = 3  # number of the last differences to which the geometric sequence is fitted
-RATIOS = np.linspace(0.0, 2.0, 401)[1:]  # trial values of the ratio r of successive differences
-LONGER = 1.15  # largest ratio of the interval of a sum to the shortest interval of all sums (`starting_grid`)
-DRAWS = 4000  # samples of the normal distribution from which intervals of the limit are computed
+from scipy.special import stdtrit
 
 
 @dataclass(frozen=True)
-class Level:
-    """Values of several statistics of the same surfaces on a grid and on the next coarser grid.
+class Nest:
+    """Values of the same surfaces on several grids.
 
-    across : elements across the discs
-    fine : values on the grid, shape (surfaces, statistics)
-    coarse : values on the next coarser grid, shape (surfaces, statistics); None on the coarsest grid
-    seconds : processor time of a surface on the grid, and on the next coarser grid
+    grids : elements across the discs on the grids; values : shape (surfaces, grids)
     """
 
-    across: int
-    fine: np.ndarray
-    coarse: np.ndarray | None
-    seconds: tuple[float, float] = (np.nan, 0.0)
-
-    def one(self, position):
-        """Return the values of one statistic, and their differences from the next coarser grid or None."""
-        fine = self.fine[:, position]
-        return fine, None if self.coarse is None else fine - self.coarse[:, position]
+    grids: tuple[int, ...]
+    values: np.ndarray
 
 
 @dataclass(frozen=True)
-class Estimate:
-    """Estimate of a mean on the finest grid and of its limit.
+class GridMeans:
+    """Means on all grids, by generalised least squares.
 
-    value, low, high : mean on the finest grid and its 95 % interval
-    error : standard error of the value
-    base : position of the grid b in the list of levels at which the sum starts
-    differences : means of the differences between neighbouring grids, and their standard errors, shape (2, levels − 1)
-    ratio : ratio r of successive differences and its 95 % interval
-    remainder : sum of all differences beyond the finest grid and its 95 % interval; nan if r reaches 1
-    limit : value plus remainder and its 95 % interval; nan if r reaches 1
+    grids : elements across the discs, from coarse to fine
+    means : shape (grids,)
+    covariances : for each nest, the covariance of the means as far as it comes from this nest, shape (grids, grids)
+    freedoms : degrees of freedom of these covariances
     """
 
-    value: float
-    low: float
-    high: float
-    error: float
-    base: int
-    differences: np.ndarray
-    ratio: tuple[float, float, float]
-    remainder: tuple[float, float, float]
-    limit: tuple[float, float, float]
+    grids: list[int]
+    means: np.ndarray
+    covariances: list[np.ndarray]
+    freedoms: list[int]
+
+    def combination(self, coefficients):
+        """Return the sum of coefficients times means with its 95 % interval: (value, low, high).
+
+        The interval uses Student's t with the degrees of freedom of a sum of variances (Welch and Satterthwaite).
+        """
+        coefficients = np.asarray(coefficients, float)
+        variances = np.array([coefficients @ covariance @ coefficients for covariance in self.covariances])
+        freedom = variances.sum() ** 2 / np.sum(variances**2 / self.freedoms)
+        value, half = coefficients @ self.means, stdtrit(freedom, 0.975) * np.sqrt(variances.sum())
+        return value, value - half, value + half
+
+    def on(self, across):
+        """Return (value, low, high) of the mean on a grid."""
+        return self.combination([float(grid == across) for grid in self.grids])
+
+    def limit(self, hurst):
+        """Return (middle, low, high) of the interval of the limit on finer grids; hurst : Hurst exponent H."""
+        finest, difference = np.zeros((2, len(self.grids)))
+        finest[-1], difference[-2:] = 1.0, (-1.0, 1.0)
+        largest = (self.grids[-2] / self.grids[-1]) ** hurst
+        ends = [self.combination(finest + r / (1 - r) * difference)[1:] for r in (0.0, largest)]
+        low, high = min(low for low, _ in ends), max(high for _, high in ends)
+        return (low + high) / 2, low, high
 
 
-def slopes_of(log_x, windows):
-    """Return a matrix whose product with curves gives the slope of a least-squares line in every window.
+def slope_weights(log_x):
+    """Return weights whose sum of products with a curve is the slope of a least-squares line; log_x : ln X."""
+    offset = log_x - log_x.mean()
+    return offset / (offset @ offset)
 
-    log_x : ln X, shape (abscissae,); windows : list of (first, last) positions of abscissae, both included
-    Returns an array of shape (abscissae, windows).
+
+def measured_covariance(nests, grids):
+    """Return the covariance of values on some grids between surfaces, shape (grids, grids), and its degrees of freedom.
+
+    It is pooled over all nests that contain all these grids; each nest has its own mean.
     """
-    matrix = np.zeros((log_x.size, len(windows)))
-    for column, (first, last) in enumerate(windows):
-        part = slice(first, last + 1)
-        offset = log_x[part] - log_x[part].mean()
-        matrix[part, column] = offset / (offset @ offset)
-    return matrix
+    products, freedom = np.zeros((len(grids), len(grids))), 0
+    for nest in nests:
+        if set(grids) <= set(nest.grids):
+            values = nest.values[:, [nest.grids.index(grid) for grid in grids]]
+            offsets = values - values.mean(axis=0)
+            products += offsets.T @ offsets
+            freedom += len(values) - 1
+    return products / freedom, freedom
 
 
-def estimates(levels, seed):
-    """Estimate the mean of every statistic on the finest grid and in the limit; return a list of `Estimate`.
+def grid_means(nests):
+    """Estimate the mean on every grid; return `GridMeans`.
 
-    levels : list of `Level`, from coarse to fine
-    seed : int or SeedSequence of the draws from which the intervals of remainders are computed
+    The covariance of a nest of k grids is estimated with m degrees of freedom, and p = k − 1 grids serve as control
+    variates of another one. As for a regression with p coefficients, the variance grows by the factor
+    m(m − 1)/((m − p)(m − p − 1)), and m − p degrees of freedom remain (Lavenberg and Welch, Manage. Sci. 27, 322
+    (1981)). Raises ValueError if a nest has fewer than k + 2 surfaces.
     """
-    statistics = levels[0].fine.shape[1]
-    return [_estimate([level.one(i) for level in levels], seed) for i in range(statistics)]
+    grids = sorted({grid for nest in nests for grid in nest.grids})
+    information, parts = np.zeros((len(grids), len(grids))), []
+    for nest in nests:
+        controls = len(nest.grids) - 1
+        covariance, freedom = measured_covariance(nests, nest.grids)
+        if freedom < controls + 2:
+            raise ValueError(
+                f"grid_means: the nest on the grids {', '.join(map(str, nest.grids))} has {len(nest.values)} surfaces; "
+                f"allowed: at least {controls + 3}"
+            )
+        selection = np.eye(len(grids))[[grids.index(grid) for grid in nest.grids]]
+        weights = selection.T @ np.linalg.inv(covariance / len(nest.values))
+        information += weights @ selection
+        growth = freedom * (freedom - 1) / ((freedom - controls) * (freedom - controls - 1))
+        parts.append((weights @ nest.values.mean(axis=0), growth * weights @ selection, freedom - controls))
+    inverse = np.linalg.inv(information)
+    return GridMeans(
+        grids=grids,
+        means=inverse @ sum(mean for mean, _, _ in parts),
+        covariances=[inverse @ part @ inverse for _, part, _ in parts],
+        freedoms=[freedom for _, _, freedom in parts],
+    )
 
 
-def _estimate(samples, seed):
-    """Return the `Estimate` of one statistic; samples : (values, differences) from `Level.one` for each grid."""
-    base = starting_grid(samples)
-    value, half, error = mean_error(samples, base)
-    differences = np.array([(d.mean(), d.std(ddof=1) / np.sqrt(d.size)) for _, d in samples[1:]]).reshape(-1, 2).T
-    ratio, remainder, limit = _beyond(samples, base, value, differences, seed)
-    return Estimate(value, value - half, value + half, error, base, differences, ratio, remainder, limit)
+def simulated(nests, mean, sets, seed):
+    """Yield the `GridMeans` of simulated sets of surfaces with the measured covariances.
 
+    Each set has the numbers of surfaces and the grids of the nests, normal values, and the same mean on all grids. The
+    covariances are estimated anew from each set.
 
-def starting_grid(samples):
-    """Return the position of the grid from which the sum over pairs of grids starts.
-
-    It is the coarsest grid whose interval is at most `LONGER` times as long as the shortest interval of all grids. The
-    shortest interval itself would on average be too short, since it is the smallest of several estimates.
-
-    samples : (values, differences) from `Level.one` for each grid, from coarse to fine
+    mean : mean on all grids; sets : number of sets; seed : int or SeedSequence
     """
-    halves = np.array([mean_error(samples, base)[1] for base in range(len(samples))])
-    return int(np.argmax(halves <= LONGER * halves.min()))
-
-
-def mean_error(samples, base):
-    """Return the mean on the finest grid, half the width of its 95 % interval, and its standard error.
-
-    samples : (values, differences) from `Level.one` for each grid, from coarse to fine
-    base : position of the grid at which the sum starts
-
-    The interval uses Student's t with the degrees of freedom of a sum of independent means (Welch and Satterthwaite).
-    """
-    terms = [samples[base][0]] + [difference for _, difference in samples[base + 1 :]]
-    squares = np.array([term.var(ddof=1) / term.size for term in terms])
-    error = np.sqrt(squares.sum())
-    degrees = np.sum(squares**2 / [term.size - 1 for term in terms])
-    freedom = squares.sum() ** 2 / degrees if degrees > 0 else np.inf
-    return sum(term.mean() for term in terms), stdtrit(freedom, 0.975) * error, error
-
-
-def _beyond(samples, base, value, differences, seed):
-    """Continue the differences beyond the finest grid; return ratio, remainder and limit with their intervals."""
-    undefined = (np.nan, *NO_INTERVAL)
-    if differences.shape[1] < DIFFERENCES or not (differences[1] > 0).all():
-        return undefined, undefined, undefined
-    means, errors = differences[:, -DIFFERENCES:]
-    explained = _explained(means[None], errors)[0]
-    # Profile likelihood: the ratios that explain the differences almost as well as the best ratio
-    accepted = RATIOS[explained >= explained.max() - chdtri(1, 0.05)]
-    ratio = (RATIOS[explained.argmax()], accepted[0], accepted[-1])
-    if ratio[2] >= 1:
-        return ratio, undefined, undefined
     random = np.random.default_rng(seed)
-    # Differences are drawn with Student's t, since their standard errors are estimated from few surfaces.
-    sizes = np.array([d.size for _, d in samples[1:]])
-    drawn = differences[0] + differences[1] * random.standard_t(sizes - 1, size=(DRAWS, sizes.size))
-    fine, difference = samples[base]
-    base_error = fine.std(ddof=1) / np.sqrt(fine.size)
-    scatter = base_error * random.standard_t(fine.size - 1, size=DRAWS)
-    if difference is not None:
-        # The values on the base grid and the differences from the next coarser grid belong to the same surfaces.
-        correlation = np.corrcoef(fine, difference)[0, 1]
-        shared = (drawn[:, base - 1] - differences[0, base - 1]) / differences[1, base - 1] * base_error
-        scatter = correlation * shared + np.sqrt(max(1 - correlation**2, 0.0)) * scatter
-    values = value + scatter + (drawn[:, base:] - differences[0, base:]).sum(axis=1)
-    remainders = _remainders(drawn[:, -DIFFERENCES:], errors)
-    remainder = _remainders(means[None], errors)[0]
-    ends = np.quantile([remainders, values + remainders], [0.025, 0.975], axis=1, method="nearest")
-    return ratio, (remainder, *ends[:, 0]), (value + remainder, *ends[:, 1])
-
-
-def _explained(means, errors):
-    """Return the part of χ² that the best geometric sequence of each ratio explains, shape (rows, ratios).
-
-    means : differences, shape (rows, differences); errors : their standard errors
-    """
-    powers = RATIOS[:, None] ** np.arange(means.shape[1])
-    return ((means / errors**2) @ powers.T) ** 2 / np.sum(powers**2 / errors**2, axis=1)
-
-
-def _remainders(means, errors):
-    """Return the remainder Σ D_l beyond the last difference of each row, infinite for a ratio of 1 or more."""
-    ratios = RATIOS[_explained(means, errors).argmax(axis=1)]
-    powers = ratios[:, None] ** np.arange(means.shape[1])
-    amplitudes = np.sum(means * powers / errors**2, axis=1) / np.sum(powers**2 / errors**2, axis=1)
-    last = amplitudes * powers[:, -1]
-    with np.errstate(divide="ignore"):
-        return np.where(ratios < 1, last * ratios / np.abs(1 - ratios), np.copysign(np.inf, last))
-
-
-def optimal_surfaces(variances, seconds, half_width):
-    """Allocate surfaces to grids for a 95 % interval of the given half-width at the least processor time.
-
-    variances : variance of a value on the first grid, then variances of the differences on the finer grids
-    seconds : processor times of a surface on the first grid, then of a pair of grids
-    Returns the numbers of surfaces n_l ∝ √(variance/seconds), at least 2, as integers.
-    """
-    variances, seconds = np.asarray(variances, float), np.asarray(seconds, float)
-    total = np.sum(np.sqrt(variances * seconds)) / (half_width / 1.96) ** 2
-    return np.maximum(np.ceil(total * np.sqrt(variances / seconds)), 2).astype(int)
+    factors = [np.linalg.cholesky(measured_covariance(nests, nest.grids)[0]) for nest in nests]
+    for _ in range(sets):
+        yield grid_means(
+            [
+                Nest(nest.grids, mean + random.standard_normal(nest.values.shape) @ factor.T)
+                for nest, factor in zip(nests, factors, strict=True)
+            ]
+        )

@@ -18,6 +18,9 @@ from viscorough_study.run.tables import split_table
 from viscorough_study.verdicts.answer import answer, short_answer
 from viscorough_study.verdicts.claims import findings
 
+# {picture in docs/results/ that the page shows without drawing it: command that draws it}
+PUBLISHED_PICTURES = {"local_exponent": "make fine-grids"}
+
 
 def page_of(project, discs, figures, *, fraction_min, **run):
     """Return the HTML of the page.
@@ -30,10 +33,12 @@ def page_of(project, discs, figures, *, fraction_min, **run):
     run : further arguments of `contents_of`
     """
     folder, figures = project / "workflow/page", {Path(path).stem: path for path in figures}
+    figures |= {name: project / "docs/results" / f"{name}.png" for name in PUBLISHED_PICTURES}
     captions = {name: project / f"workflow/report/figures/{name}.rst" for name in figures}
     template, style = ((folder / name).read_text("utf-8") for name in ("page.html.jinja", "style.css"))
     contents = contents_of(project, discs, **run)
     parts = {
+        "published_pictures": PUBLISHED_PICTURES,
         "alternative": yaml.safe_load((folder / "figures.yaml").read_text("utf-8")),
         "calculator": calculator(folder),
         "chart": chart(folder, discs, contents["conventions"], fraction_min),

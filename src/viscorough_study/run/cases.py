@@ -176,22 +176,38 @@ def line_cases(settings):
 
 
 def nested_cases(settings):
-    """Return {name: description} of the discs whose curves are computed on two neighbouring grids.
+    """Return {name: description} of the discs whose curves are computed on several grids.
 
-    A case belongs to one Hurst exponent and one grid. Its description has the keys hurst, spawn_key, elements (across
-    discs on the grid and on the next coarser grid, if there is one), surfaces and until_x. They are arguments of
-    ensembles.nested_grids.nested_curves.
+    A case belongs to one Hurst exponent and one grid. Its description has the keys realizations and batch, as in
+    `disc_cases`, and the keys hurst, spawn_key, elements (across discs, on the grid and on all coarser grids) and
+    until_x, which are arguments of ensembles.nested_grids.nested_curves.
     """
     cases = {}
     for ensemble in settings["nested_grids"]["ensembles"]:
         coarser = []
         for grid in ensemble["grids"]:
-            case = {"hurst": ensemble["hurst"], "elements": [grid["elements"], *coarser]}
-            case["spawn_key"] = seeds.nested_disc_key(ensemble["hurst"], grid["elements"])
-            name = f"{hurst_id(ensemble['hurst'])}_{grid['elements']:05d}"
-            cases[name] = case | {"surfaces": grid["surfaces"], "until_x": grid["until_x"]}
-            coarser = [grid["elements"]]
+            coarser = [grid["elements"], *coarser]
+            cases[f"{hurst_id(ensemble['hurst'])}_{grid['elements']:05d}"] = {
+                "hurst": ensemble["hurst"],
+                "elements": coarser,
+                "spawn_key": seeds.nested_disc_key(ensemble["hurst"], grid["elements"]),
+                "until_x": grid["until_x"],
+                "realizations": grid["surfaces"],
+                "batch": grid["batch"],
+            }
     return cases
+
+
+def nested_arguments(case, batch):
+    """Return the arguments of ensembles.nested_grids.nested_curves for one job, which is a batch of discs."""
+    first, last = map(int, batch.split("-"))
+    names = ("hurst", "elements", "spawn_key", "until_x")
+    return {name: case[name] for name in names} | {"numbers": [first, last + 1]}
+
+
+def nested_files(cases):
+    """Return the names of the files with the curves of discs on several grids; cases : result of `nested_cases`."""
+    return [f"results/curves/nested/{name}/{batch}.nc" for name, case in cases.items() for batch in batches(case)]
 
 
 def method_problems(settings):
@@ -333,7 +349,7 @@ def disc_memory(case):
 
 
 def nested_memory(case):
-    """Return the memory [MB] of a job that indents discs on two grids: surfaces and fields of the finer grid.
+    """Return the memory [MB] of a job that indents discs on several grids: surfaces and fields of the finest grid.
 
     The curves end at small contacts, so the solver needs less than for whole curves.
     """

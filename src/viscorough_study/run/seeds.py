@@ -143,9 +143,9 @@ def one_surface_key(hurst, number):
 
 
 def nested_disc_key(hurst, elements):
-    """Return the spawn key of the discs that are indented on two neighbouring grids.
+    """Return the spawn key of the discs that are indented on several grids.
 
-    elements : elements across the disc on the finer grid
+    elements : elements across the disc on the finest grid
     """
     return _key(19, _millionths(hurst), elements)
 

@@ -506,14 +506,15 @@ class Sizes(Section):
 
 
 class NestedGrid(Section):
-    """A grid on which discs are indented, and also on the next coarser grid of the list."""
+    """A grid on which discs are indented, and also on all coarser grids of the list."""
 
     elements: whole(3, 16385) = meaning("elements across the discs", also="odd")
-    surfaces: whole(2, 1_000_000) = meaning("discs that are indented on this grid and on the next coarser grid")
+    surfaces: whole(20, 1_000_000) = meaning("discs that are indented on this grid and on all coarser grids")
     until_x: real(1e-6, 1.0) = meaning(
         "X = F/(4GhL) at which the curves end, with h over all waves of the spectrum",
         also="at most the value of the next coarser grid",
     )
+    batch: whole(1, 1_000_000) = meaning("discs per job")
 
 
 class NestedEnsemble(Section):
@@ -524,7 +525,7 @@ class NestedEnsemble(Section):
 
 
 class NestedGrids(Section):
-    """The same discs on neighbouring grids, for β at small X and on an infinitely fine grid."""
+    """The same discs on several grids, for β at small X and its limit on finer grids (`make fine-grids`)."""
 
     elements_min: whole(1, 1_000_000) = meaning(
         "median of the elements in contact from which a curve is used on a grid"

@@ -57,19 +57,17 @@ def exponent_small_hurst(evidence, tolerance):
 def exponent_limit(evidence, tolerance):
     """Test whether the exponent β tends to H/(1 + H) on fine grids and at small X (fits.fine_grids).
 
-    The claim is tested for each Hurst exponent, in the decade of the smallest X that the finest grids support. The
-    tested value is β for an infinitely fine grid, or β on the finest grid if the limit cannot be determined. β tends to
-    H/(1 + H) if the interval of the limit lies within the tolerance, and β does not rise towards small X.
+    The claim is tested for each Hurst exponent, in the decade of the smallest X that the finest grids support, by the
+    published table. The tested value is the limit of β, or β on the finest grid if the limit is open.
     """
     table = evidence.tables.get("fine_exponents")
     if table is None or table.empty:
         yield judged("all H", UNDEFINED, np.nan, None)
         return
     for row in table.query("judged == 1 and quantity == 'whole'").to_dict("records"):
-        limit = interval(row, "limit")
-        values = limit if np.isfinite(limit[0]) else interval(row, "beta")
+        values = interval(row, "beta" if row["finding"] == "open" else "limit")
         name = f"{hurst_name(row['hurst'])}, X from {row['x_low']:.2g} to {10 * row['x_low']:.2g}"
-        yield judged(name, values, row["expected"], {"tends": True, "departs": False}.get(row["finding"]))
+        yield judged(name, values, row["expected"], {"within": True, "outside": False}.get(row["finding"]))
 
 
 def coincide(evidence, tolerance):

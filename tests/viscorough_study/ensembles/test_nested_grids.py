@@ -99,21 +99,32 @@ def test_curve_has_the_stiffness_of_a_contact_at_the_same_force():
 
 def test_curves_depend_on_number_and_grid_of_a_disc_only():
     options = {"until_x": 0.1, "tolerance": 1e-2, "spawn_key": (19,)}
-    two, three = (nested_curves(HURST, [33, 17], n, seed=5, **options).variables for n in (2, 3))
-    np.testing.assert_array_equal(two["log_velocity"].values, three["log_velocity"].values[:2])
-    other = nested_curves(HURST, [33, 17], 2, seed=6, **options).variables
-    assert (two["log_velocity"].values != other["log_velocity"].values).any()
-    alone = nested_curves(HURST, [33], 2, seed=5, **options).variables
-    np.testing.assert_array_equal(two["log_velocity"].values[:, :1], alone["log_velocity"].values)
+    three = nested_curves(HURST, [33, 17, 9], [0, 3], seed=5, **options).variables["log_velocity"].values
+    last = nested_curves(HURST, [33, 17, 9], [2, 3], seed=5, **options).variables["log_velocity"].values
+    np.testing.assert_array_equal(last, three[2:])
+    other = nested_curves(HURST, [33, 17, 9], [2, 3], seed=6, **options).variables["log_velocity"].values
+    assert (last != other).any()
+    alone = nested_curves(HURST, [33], [0, 3], seed=5, **options).variables["log_velocity"].values
+    np.testing.assert_array_equal(three[:, :, :1], alone)
+
+
+def test_second_curve_is_that_of_the_other_side():
+    options = {"until_x": 0.1, "tolerance": 1e-2}
+    variables = nested_curves(HURST, [33], [0, 1], seed=5, spawn_key=(19,), **options).variables
+    disc = disc_of_waves(surface_waves(HURST, 33, np.random.SeedSequence(5, spawn_key=(19, 0))))
+    for side, heights in enumerate((disc, -disc)):
+        logarithm, count = curve_of_disc(heights, HURST, variables["x"].values, 1e-2)
+        np.testing.assert_array_equal(variables["log_velocity"].values[0, side, 0], logarithm)
+        np.testing.assert_array_equal(variables["contact_count"].values[0, side, 0], count)
 
 
 def test_tolerance_of_the_curves_does_not_change_exponents():
     curves = [
-        nested_curves(HURST, [65], 4, until_x=0.1, tolerance=t, seed=1, spawn_key=(19,)).variables for t in (1e-2, 1e-4)
+        nested_curves(HURST, [65], [0, 2], until_x=0.1, tolerance=t, seed=1, spawn_key=(19,)).variables
+        for t in (1e-2, 1e-4)
     ]
     decade = slice(-21, None)
-    slopes = [
-        np.polyfit(np.log(each["x"].values[decade]), each["log_velocity"].values[:, 0, decade].T, 1)[0]
-        for each in curves
-    ]
+    log_x = np.log(curves[0]["x"].values[decade])
+    curves = [each["log_velocity"].values[:, :, 0, decade].reshape(4, -1) for each in curves]
+    slopes = [np.polyfit(log_x, each.T, 1)[0] for each in curves]
     np.testing.assert_allclose(slopes[0], slopes[1], atol=2e-3)

@@ -91,7 +91,7 @@ def expected_points(scaling):
         table, line_rms = published("sizes").query("window_rule == @rule"), {"rms_convention": "line"}
         yield "sizes", panel, points(fits(table, SHOWN | {"window_rule": rule}, source="discs"), None, "beta")
         yield "sizes", panel + 1, points(fits(table, SHOWN | {"window_rule": rule}, **line_rms), None, "beta")
-    fine = published("fine_exponents").query("finest == 1")
+    fine = tables.FROM_TABLES["local_exponent"][0].query("finest == 1")
     fine = fine.assign(middle=fine["x_low"] * np.sqrt(10))
     for panel, quantity in enumerate(("whole", "interface")):
         yield "local_exponent", panel, points(fine[fine["quantity"] == quantity], "middle", "beta")
@@ -264,7 +264,7 @@ def test_axes_of_lambda_show_its_change_within_region_b(drawn):
 
 def test_exponent_of_what_has_no_region_and_intervals_beside_their_value(scaling):
     def symbols(table):
-        axes = plot("exponent", table, published("fine_exponents")[:0], SHOWN, (0.4, 1.0)).axes[0]
+        axes = plot("exponent", table, SHOWN, (0.4, 1.0), []).axes[0]
         values = [line for line in axes.lines if line.get_linestyle() == "None" and line.get_marker() not in "_|"]
         return axes, [line.get_xydata()[0] for line in values]
 

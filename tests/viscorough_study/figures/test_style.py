@@ -8,10 +8,11 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from support.contract import refused
-from support.figures import published
 from support.study import SHOWN
+from support.workflow import ROOT
 from viscorough_study.figures.exponent import plot_exponent
 from viscorough_study.figures.style import figure, hurst_looks, save_figure
+from viscorough_study.fits.fine_sentence import judged_rows
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -46,7 +47,7 @@ def test_saved_files_are_reproducible(scaling, tmp_path):
     for folder in folders:
         folder.mkdir()
         save_figure(
-            drawn := plot_exponent(scaling, published("fine_exponents"), SHOWN, (0.4, 1.0)),
+            drawn := plot_exponent(scaling, SHOWN, (0.4, 1.0), judged_rows(ROOT)),
             folder / "a.png",
             folder / "a.pdf",
         )

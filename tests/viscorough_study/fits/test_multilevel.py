@@ -1,114 +1,95 @@
-"""Check the estimate from surfaces on several grids: sums, intervals, remainders and the allocation of surfaces."""
+"""Check the means on several grids by generalised least squares: exactness, scatter, intervals and limits."""
 
 import numpy as np
 import pytest
-from scipy.special import zeta
 
-from viscorough_study.ensembles.averages import abscissa
-from viscorough_study.fits.multilevel import Level, estimates, mean_error, optimal_surfaces, slopes_of, starting_grid
+from viscorough_study.fits.multilevel import GridMeans, Nest, grid_means, measured_covariance, simulated, slope_weights
 
-
-def waves_of_line(hurst, points, seed):
-    """Draw the amplitudes of the waves of a line, k = 1 ... (n − 1)/2, with mean squares k^(−1−2H)."""
-    half = points // 2
-    random = np.random.default_rng(seed).standard_normal(2 * half).view(complex) * np.sqrt(0.5)
-    return random * np.arange(1, half + 1) ** (-(1 + 2 * hurst) / 2)
+GRIDS = (65, 33, 17)  # from fine to coarse
+MEANS = np.array([0.30, 0.32, 0.38])
+FACTOR = 0.1 * np.array([[1.0, 0.2, 0.1], [0.95, 0.3, 0.0], [0.8, 0.0, 0.0]])
+DESIGN = (((65, 33), 25), ((65, 33, 17), 30), ((33, 17), 60), ((17,), 400))
 
 
-def curve_of_line(waves, hurst, points, x):
-    """Return ln(vt/h) of a line by the MDR (F = 4G Δx Σ(u − g)₊) with the waves that the grid contains.
-
-    As for discs, h² is the mean square of the heights plus the expected mean square of the waves that are missing.
-    """
-    kept = np.append(0, waves[: points // 2])
-    heights = np.fft.irfft(kept, points) * points
-    gaps = np.sort(heights.max() - heights)
-    rms = np.sqrt(np.mean(heights**2) + 2 * zeta(1 + 2 * hurst, points // 2 + 1))
-    forces = (np.arange(points) * gaps - np.append(0, np.cumsum(gaps)[:-1])) / (points * rms)  # X where each touches
-    return np.log(x / (np.searchsorted(forces, x, side="left") / points))
+def drawn(random, design=DESIGN):
+    """Return nests of normal values with the means `MEANS` and the covariance of `FACTOR` on `GRIDS`."""
+    nests = []
+    for grids, surfaces in design:
+        values = MEANS + random.standard_normal((surfaces, 3)) @ FACTOR.T
+        nests.append(Nest(grids, values[:, [GRIDS.index(across) for across in grids]]))
+    return nests
 
 
-def synthetic_levels(means, sizes, *, scatter=1.0, scatter_of_pairs=0.1, seed=0):
-    """Return levels with one statistic: its mean on each grid, and its scatter between surfaces and between grids."""
-    random = np.random.default_rng(seed)
-    levels = []
-    for i, (mean, size) in enumerate(zip(means, sizes, strict=True)):
-        fine = mean + scatter * random.standard_normal((size, 1))
-        step = mean - means[i - 1]
-        coarse = fine - step - scatter_of_pairs * random.standard_normal((size, 1)) if i else None
-        levels.append(Level(2 ** (i + 5) + 1, fine, coarse, (4.0**i, 4.0 ** (i - 1))))
-    return levels
+def test_slope_of_a_line_is_exact():
+    log_x = np.log([0.1, 0.2, 0.5, 1.0])
+    assert (3.0 - 0.4 * log_x) @ slope_weights(log_x) == pytest.approx(-0.4, rel=1e-12)
 
 
-def test_sum_over_pairs_of_the_same_surfaces_is_the_plain_mean_on_the_finest_grid():
-    values = np.random.default_rng(1).normal(size=(4, 30, 1))  # four grids, the same 30 surfaces on each
-    levels = [Level(i, values[i], values[i - 1] if i else None) for i in range(4)]
-    samples = [level.one(0) for level in levels]
-    for base in range(4):
-        assert abs(mean_error(samples, base)[0] - values[3].mean()) < 1e-14
+def test_means_of_the_same_surfaces_on_all_grids_are_their_plain_means():
+    (nest,) = drawn(np.random.default_rng(1), [(GRIDS, 40)])
+    parts = [Nest(nest.grids, nest.values[:15]), Nest(nest.grids, nest.values[15:])]
+    assert grid_means([nest]).means == pytest.approx(nest.values.mean(axis=0)[::-1], rel=1e-12)
+    assert grid_means(parts).means == pytest.approx(nest.values.mean(axis=0)[::-1], rel=1e-12)
 
 
-def test_sum_starts_on_the_finest_grid_if_pairs_scatter_as_much_as_surfaces():
-    sizes = [1000, 100, 100]
-    close = synthetic_levels([0.5, 0.4, 0.35], sizes, scatter_of_pairs=0.1)
-    apart = synthetic_levels([0.5, 0.4, 0.35], sizes, scatter_of_pairs=3.0)
-    assert starting_grid([level.one(0) for level in close]) == 0
-    assert starting_grid([level.one(0) for level in apart]) == 2
+def test_means_minimise_the_weighted_squares():
+    nests = drawn(np.random.default_rng(2))
+    rows, values = [], []
+    for nest in nests:
+        covariance = measured_covariance(nests, nest.grids)[0] / len(nest.values)
+        root = np.linalg.inv(np.linalg.cholesky(covariance))
+        rows.append(root @ np.array([[float(across == grid) for grid in GRIDS] for across in nest.grids]))
+        values.append(root @ nest.values.mean(axis=0))
+    expected = np.linalg.lstsq(np.concatenate(rows), np.concatenate(values), rcond=None)[0]
+    assert grid_means(nests).means[::-1] == pytest.approx(expected, rel=1e-10)
 
 
-def test_remainder_is_the_sum_of_a_geometric_sequence():
-    steps = 0.1 * 0.5 ** np.arange(4)
-    means = 1 - np.append(0, np.cumsum(steps))
-    levels = synthetic_levels(means, [4000] * 5, scatter=0.02, scatter_of_pairs=0.01)
-    (estimate,) = estimates(levels, 0)
-    assert estimate.ratio[1] <= 0.5 <= estimate.ratio[2] < 0.6
-    assert abs(estimate.limit[0] - (means[-1] - steps[-1])) < 0.003
-    assert estimate.limit[1] < means[-1] - steps[-1] < estimate.limit[2]
-    assert estimate.remainder[0] == pytest.approx(estimate.limit[0] - estimate.value)
+def test_covariance_comes_from_all_nests_with_these_grids():
+    nests = drawn(np.random.default_rng(3))
+    covariance, freedom = measured_covariance(nests, (65, 33))
+    offsets = np.concatenate([nest.values[:, :2] - nest.values[:, :2].mean(axis=0) for nest in nests[:2]])
+    assert freedom == 25 + 30 - 2
+    assert covariance == pytest.approx(offsets.T @ offsets / freedom, rel=1e-12)
 
 
-@pytest.mark.parametrize("means", [[1.0, 1.0, 1.0, 1.0], [1.0, 0.9, 0.8, 0.7]], ids=["no trend", "steady trend"])
-def test_limit_is_undecided_if_differences_need_not_decrease(means):
-    (estimate,) = estimates(synthetic_levels(means, [200] * 4), 0)
-    assert estimate.ratio[2] >= 1
-    assert np.isnan(estimate.limit).all()
-    assert np.isfinite([estimate.value, estimate.low, estimate.high]).all()
+def test_estimate_is_unbiased_and_scatters_by_its_stated_covariance():
+    random = np.random.default_rng(4)
+    found = [grid_means(drawn(random)) for _ in range(1500)]
+    values = np.array([each.means for each in found])
+    stated = np.mean([sum(each.covariances) for each in found], axis=0)
+    assert np.abs(values.mean(axis=0) - MEANS[::-1]).max() < 4 * np.sqrt(stated.max() / len(found))
+    assert np.diag(np.cov(values.T)) == pytest.approx(np.diag(stated), rel=0.12)
+    plain = (FACTOR @ FACTOR.T)[0, 0] / (25 + 30)  # variance of the mean on the finest grid alone
+    assert stated[-1, -1] < 0.6 * plain
 
 
-def test_two_differences_determine_no_limit():
-    (estimate,) = estimates(synthetic_levels([1.0, 0.9, 0.85], [200] * 3), 0)
-    assert np.isnan(estimate.limit).all()
+@pytest.mark.parametrize("finest", [12, 60])
+def test_interval_contains_the_mean_with_covariances_estimated_anew(finest):
+    random = np.random.default_rng(5)
+    design = [(GRIDS, finest), ((33, 17), 2 * finest), ((17,), 20 * finest)]
+    ends = np.array([grid_means(drawn(random, design)).on(65)[1:] for _ in range(1000)])
+    assert 0.93 < np.mean((ends[:, 0] <= MEANS[0]) & (ends[:, 1] >= MEANS[0])) < 0.97
 
 
-def test_allocated_surfaces_reach_the_half_width_at_the_least_cost():
-    variances, seconds, half_width = np.array([0.03, 2e-3, 3e-4]), np.array([0.2, 0.9, 3.0]), 0.02
-    numbers = optimal_surfaces(variances, seconds, half_width)
-    assert 1.96 * np.sqrt(np.sum(variances / numbers)) == pytest.approx(half_width, rel=0.02)
-    random = np.random.default_rng(0)
-    for _ in range(100):  # any other numbers with the same variance cost more
-        other = numbers * random.uniform(0.5, 2, size=3)
-        other *= np.sum(variances / other) / np.sum(variances / numbers)
-        assert other @ seconds > 0.999 * numbers @ seconds
+def test_simulated_sets_have_the_measured_covariance_and_the_given_mean():
+    nests = drawn(np.random.default_rng(6))
+    values = np.array([each.means for each in simulated(nests, 0.25, 600, seed=1)])
+    stated = sum(grid_means(nests).covariances)
+    assert values.mean(axis=0) == pytest.approx(0.25, abs=4 * np.sqrt(stated.max() / 600))
+    assert np.cov(values.T)[-1, -1] == pytest.approx(stated[-1, -1], rel=0.25)
 
 
-def test_interval_of_lines_contains_the_exponent_of_their_finest_grid():
-    grids, sizes, repetitions, hurst = (33, 65, 129), (16, 12, 8), 400, 0.4
-    x = abscissa(0.01, 0.1, 10)
-    matrix = slopes_of(np.log(x), [(0, len(x) - 1)])
-    bank = []
-    for position, (points, size) in enumerate(zip(grids, sizes, strict=True)):
-        curves = np.empty((size * repetitions, min(position + 1, 2), len(x)))
-        for surface in range(len(curves)):
-            waves = waves_of_line(hurst, points, np.random.SeedSequence(3, spawn_key=(position, surface)))
-            for grid in range(curves.shape[1]):
-                curves[surface, grid] = curve_of_line(waves, hurst, grids[position - grid], x)
-        bank.append((curves @ matrix).reshape(repetitions, size, -1))
-    # The exponent is known from all repetitions together, with a tenth of the error of a single one.
-    truth = bank[0].mean() + sum((pairs[..., 0] - pairs[..., 1]).mean() for pairs in bank[1:])
-    contained = []
-    for repetition in range(repetitions):
-        drawn = [pairs[repetition] for pairs in bank]
-        levels = [Level(n, d[:, :1], d[:, 1:] if d.shape[1] > 1 else None) for n, d in zip(grids, drawn, strict=True)]
-        (estimate,) = estimates(levels, repetition)
-        contained.append(estimate.low <= truth <= estimate.high)
-    assert 0.9 <= np.mean(contained) <= 0.98
+def test_limit_is_the_union_over_all_ratios_of_successive_differences():
+    means = GridMeans([17, 33, 65], np.array([0.5, 0.4, 0.37]), [np.diag([4e-4, 2e-4, 1e-4])], [40])
+    bound = (33 / 65) ** 0.4
+    intervals = [means.combination([0, -r / (1 - r), 1 + r / (1 - r)]) for r in np.linspace(0, bound, 50)]
+    middle, low, high = means.limit(0.4)
+    assert low == pytest.approx(min(low for _, low, _ in intervals))
+    assert high == pytest.approx(max(high for _, _, high in intervals))
+    assert middle == pytest.approx((low + high) / 2)
+    assert low < 0.37 - 0.03 * bound / (1 - bound) < means.on(65)[1] < high
+
+
+def test_too_few_surfaces_for_the_covariance_raise():
+    with pytest.raises(ValueError, match=r"the nest on the grids 65, 33, 17 has 4 surfaces; allowed: at least 5"):
+        grid_means(drawn(np.random.default_rng(7), [(GRIDS, 4)]))

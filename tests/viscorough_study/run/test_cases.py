@@ -108,9 +108,17 @@ def test_memory_of_every_job_is_below_two_gigabytes(settings, name):
     assert max(needed) < 2000
 
 
-def test_nested_discs_have_the_next_coarser_grid_and_a_key_of_their_exponent_and_grid(settings):
+def test_nested_discs_have_all_coarser_grids_and_a_key_of_their_exponent_and_grid(settings):
     nested = cases.nested_cases(settings)
-    assert nested["h04000_00129"]["elements"] == [129]
-    assert nested["h04000_00513"]["elements"] == [513, 257]
-    assert nested["h04000_00513"]["spawn_key"] == (19, 400000, 513)
-    assert len({case["spawn_key"] for case in nested.values()}) == len(nested) == 5 * 4
+    assert nested["h04000_00257"]["elements"] == [257]
+    assert nested["h04000_01025"]["elements"] == [1025, 513, 257]
+    assert nested["h04000_01025"]["spawn_key"] == (19, 400000, 1025)
+    assert len({case["spawn_key"] for case in nested.values()}) == len(nested) == 5 * 5
+
+
+def test_jobs_of_nested_discs_cover_all_numbers_once(settings):
+    nested = cases.nested_cases(settings)
+    case = nested["h04000_04097"]
+    numbers = [cases.nested_arguments(case, batch)["numbers"] for batch in cases.batches(case)]
+    assert [n for first, end in numbers for n in range(first, end)] == list(range(case["realizations"]))
+    assert "results/curves/nested/h04000_04097/0000-0019.nc" in cases.nested_files(nested)

@@ -21,7 +21,7 @@ FLUID = {"name": "fluid", "kind": "newtonian", "viscosity": 1.0}
 
 def nested(changed):
     """Return settings of two nested grids of which the finer grid has changed values."""
-    coarse, fine = ({"elements": elements, "surfaces": 2, "until_x": 0.1} for elements in (129, 257))
+    coarse, fine = ({"elements": elements, "surfaces": 20, "until_x": 0.1, "batch": 20} for elements in (129, 257))
     return {"nested_grids": {"ensembles": [{"hurst": 0.4, "grids": [coarse, fine | changed]}]}}
 
 
@@ -159,7 +159,7 @@ def test_file_of_a_wrong_setting_is_named(change, names):
         check_settings(merged(merged(default, other), change), sources)
 
 
-@pytest.mark.parametrize("name", ["config", "paper", "sizes", "methods", "test"])
+@pytest.mark.parametrize("name", ["config", "paper", "methods", "test"])
 def test_settings_of_every_scale_are_valid(name):
     check_settings(merged(read_settings("config"), read_settings(name)))
 
@@ -215,7 +215,7 @@ def test_every_setting_has_a_meaning_and_limits():
             assert {"enum", "pattern"} & set(rule) or "boolean" in kinds, key
 
 
-@pytest.mark.parametrize("name", ["config", "paper", "sizes", "methods", "test"])
+@pytest.mark.parametrize("name", ["config", "paper", "methods", "test"])
 def test_schema_accepts_the_settings_of_every_scale(name):
     """Editors use the schema; the workflow uses the model."""
     settings = merged(read_settings("config"), read_settings(name))

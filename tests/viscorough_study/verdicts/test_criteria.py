@@ -197,14 +197,12 @@ def test_exponents_up_to_the_limit_of_the_claim_are_shown_apart(sample):
 
 
 def test_exponent_on_fine_grids_is_its_limit_or_that_of_the_finest_grid(sample):
-    """Only the judged decade of vt/h counts. Without a limit the case is undecided."""
+    """An open limit is undecided."""
     columns = ["hurst", "quantity", "judged", "x_low", "finding", "expected", *three_columns("beta", range(3))]
     rows = [
-        (0.4, "whole", 1, 1e-3, "tends", 0.286, 0.31, 0.30, 0.32, 0.29, 0.28, 0.30),
-        (0.4, "whole", 0, 1e-2, "", 0.286, 0.35, 0.34, 0.36, 0.35, 0.34, 0.36),
-        (0.4, "interface", 1, 1e-3, "departs", 0.286, 0.2, 0.19, 0.21, 0.2, 0.19, 0.21),
-        (0.1, "whole", 1, 1e-3, "undecided", 0.091, 0.16, 0.1, 0.22, np.nan, np.nan, np.nan),
-        (0.9, "whole", 1, 1e-4, "departs", 0.474, 0.6, 0.59, 0.61, 0.6, 0.59, 0.61),
+        (0.4, "whole", 1, 1e-3, "within", 0.286, 0.31, 0.30, 0.32, 0.29, 0.28, 0.30),
+        (0.1, "whole", 1, 1e-3, "open", 0.091, 0.16, 0.1, 0.22, -0.1, -0.5, 0.3),
+        (0.9, "whole", 1, 1e-4, "outside", 0.474, 0.6, 0.59, 0.61, 0.6, 0.59, 0.61),
     ]
     table = pd.DataFrame(rows, columns=[*columns, *three_columns("limit", range(3))])
     sample.tables["fine_exponents"] = table

@@ -21,7 +21,6 @@ from viscorough_study.ensembles.surface_files import read_surfaces
 
 LAST = {"tabulate_rule_costs", "make_page"}  # these rules run again after any change
 BOUNDARY_ELEMENTS = {
-    "indent_nested",
     "indent_surfaces",
     "compare_direct",
     "compare_reduction",

@@ -6,14 +6,13 @@ from support.workflow import TEST, jobs, plan, snakemake
 
 
 @pytest.mark.parametrize(
-    ("name", "indent_surfaces", "reduce_lines", "indent_nested"),
-    [("config", 4 * (2 + 1 + 1) + 2, 22, 20), ("paper", 4 * (8 + 1 + 7) + 4, 102, 20)],
+    ("name", "indent_surfaces", "reduce_lines"),
+    [("config", 4 * (2 + 1 + 1) + 2, 22), ("paper", 4 * (8 + 1 + 7) + 4, 102)],
 )
-def test_large_scales_have_a_plan(unmade, name, indent_surfaces, reduce_lines, indent_nested):
+def test_large_scales_have_a_plan(unmade, name, indent_surfaces, reduce_lines):
     planned = plan(unmade, "--configfile", f"config/{name}.yaml")
     assert (planned.pop("indent_surfaces"), planned.pop("reduce_lines")) == (indent_surfaces, reduce_lines)
     assert planned.pop("generate_discs") == indent_surfaces
-    assert planned.pop("indent_nested") == indent_nested
     assert planned.pop("aggregate_curves") == 4
     assert set(planned.values()) == {1}
     assert {"require_accuracy", "fit_power_laws", "judge_claims", "make_page"} < set(planned)
@@ -29,6 +28,12 @@ def test_figure_plans_only_the_jobs_it_needs(unmade):
     }
 
 
+@pytest.mark.long
+def test_fine_grids_are_a_target_of_their_own(tmp_path):
+    finished = snakemake(tmp_path, *TEST, "--", "fine_grids")
+    assert jobs(finished) == {"indent_nested": 4, "fit_fine_grids": 1, "plot_local_exponent": 1}
+
+
 def test_other_targets_are_made_together_with_the_default(finished):
     """All but the failure map, which only `make stability` draws."""
-    assert jobs(snakemake(finished, *TEST, "--", "speed", "stability", "sizes")) == {"plot_failure_map": 1}
+    assert jobs(snakemake(finished, *TEST, "--", "speed", "stability")) == {"plot_failure_map": 1}

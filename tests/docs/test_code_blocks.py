@@ -19,19 +19,18 @@ from support.documentation import PAGES, README, ROOT, blocks, read
 from support.workflow import merged, read_settings
 from viscorough import read_load
 from viscorough.io.medium_files import read_medium
-from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.run.settings import check_settings
 
 RUN = {page: [block for block in blocks(page) if block.language in ("python", "console", "shell")] for page in PAGES}
 # {beginning: name, reader}
 FILES = {
-    "Zeit [": ("record.csv", lambda name, unit: read_load(name, length_unit=unit)),
+    "time (ms)": ("force.csv", lambda name, unit: read_load(name, length_unit=unit)),
     "kind: ": ("medium.yaml", read_medium),
 }
 # Blocks that other tests read: directives of the website, the citation, scripts in examples/, and settings (below).
 ELSEWHERE = {"bibtex", "{toctree}", "{include}", "{literalinclude}", "{eval-rst}", "yaml"}
 # Blocks that are parts of a workflow, or need a package that is not installed here.
-ALONE = ("rule tabulate_departures:", "use rule plot_surfaces as", "module viscorough:", "import nanite")
+ALONE = ("rule tabulate_departures:", "use rule plot_surfaces as", "module viscorough:", "import numpy as np, tifffile")
 
 
 @pytest.fixture(autouse=True)
@@ -50,16 +49,8 @@ def run_page(page):
             run_shell(block.text)
 
 
-def write_scan():
-    """Write a text file of heights that states its unit and its spacing, under the name that the blocks use."""
-    heights = self_affine_disc(0.7, 17, rms=1.0, diameter=170.0, seed=1).heights
-    rows = "\n".join(" ".join(f"{height:.4f}" for height in row) for row in heights)
-    Path("scan.txt").write_text(f"# Width: 170 um\n# Height: 170 um\n# Value units: um\n{rows}\n")
-
-
 @pytest.mark.parametrize("page", [page for page in PAGES if RUN[page] and page != README], ids=lambda page: page.stem)
 def test_blocks_run(page):
-    write_scan()
     run_page(page)
 
 

@@ -9,9 +9,9 @@ from support.output_files import documented
 
 SURFACE = "--hurst 0.8 --rms 1e-6 --diameter 0.01"
 COMMANDS = {
-    "indent": "heights.npy --spacing 1 --shear-modulus 1",
+    "indent": "heights.npy --spacing 1 --unit 1 --shear-modulus 1",
     "kinetics": "indent.nc --force 1 --viscosity 1",
-    "march": "heights.npy --spacing 1 --method events --times 1,2",
+    "march": "heights.npy --spacing 1 --unit 1 --method events --times 1,2",
     "generate": f"{SURFACE} --elements 9 --seed 1",
     "estimate": f"{SURFACE} --force 10 --viscosity 1e9 --times 0.01,0.1",
 }

@@ -3,9 +3,13 @@
 import contextlib
 import glob
 import io
+import os
 import re
 import shlex
+import subprocess
+import sys
 import warnings
+from pathlib import Path
 
 from support.documentation import MAKEFILES
 from viscorough.cli import main
@@ -41,5 +45,8 @@ def run_shell(text):
         if program == "make":
             targets = [argument for argument in arguments if "=" not in argument]
             assert all(re.search(rf"^{target}:", MAKEFILES, re.MULTILINE) for target in targets), line
+        elif program == "for":
+            path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+            subprocess.run(["bash", "-c", line], check=True, capture_output=True, env=os.environ | {"PATH": path})
         elif program not in ("pip", "python", "python3", "snakemake"):
             run_command(line)

@@ -1,6 +1,6 @@
 """Solve the contacts of measured surfaces with an elastic half-space."""
 
-from viscorough_study.comparisons.measured import CONTACTS, measured_contacts
+from viscorough_study.comparisons.measured_contacts import CONTACTS, measured_contacts
 from viscorough_study.run.job_log import run_job
 from viscorough_study.run.tables import write_table
 

@@ -1,7 +1,7 @@
 """Spell names in messages as the user knows them: as arguments in Python, as options on the command line.
 
 A function of the library and a command of the command line can refuse the same input with the same message. Each
-message therefore spells the name by `argument`: lateral_unit in Python, --lateral-unit on the command line.
+message therefore spells the name by `argument`: until_force in Python, --until-force on the command line.
 """
 
 import contextlib
@@ -34,11 +34,11 @@ def argument(name: str, value: object = None, *, of: str = "") -> str:
 
     Examples
     --------
-    >>> argument("lateral_unit"), argument("detrend", "plane")
-    ('lateral_unit', "detrend='plane'")
+    >>> argument("until_force"), argument("detrend", "plane")
+    ('until_force', "detrend='plane'")
     >>> with spelled_as_options():
-    ...     argument("lateral_unit"), argument("detrend", "plane")
-    ('--lateral-unit', '--detrend plane')
+    ...     argument("until_force"), argument("detrend", "plane")
+    ('--until-force', '--detrend plane')
     """
     option = f"--{name.replace('_', '-')}"
     if value is not None:

@@ -19,13 +19,14 @@ UNKNOWN = "1"
 # Units of length that are converted without pint: {spelling in files and results: metres}. Users may write µ for u.
 _METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
 # These patterns are compiled at their first use, so that the command line starts faster.
-_ALLOWED = r"[\w.()+\-*/^ µμÅ°\"'%]{1,60}"
+_ALLOWED = r"[\w.()+\-*/^ µμÅ°·⋅\"'%]{1,60}"
 _POWER = r"(?<![\w.])([^\W\d_]+|(?<=[(*/ ])[^\W\d_]+)([+-]?\d)(?![\w.])|\)([+-]?\d)(?![\w.])"
 _LONG_POWER = r"(\*\*|\^)(?!\s*[+-]?\d(?![\d.eE]|\s*(\*\*|\^)))"
 _POINTS = r"(?i:px|pix|pixels?|pts?|points?|dots?|samples?|punkte?|bildpunkte?)"
 # pint takes units whose names end in these words for printers' units of length. In files of heights they mean points of
 # the map, so they are refused.
 _PRINTED = ("pixel", "point", "pica", "didot", "cicero")
+_DECIMAL_COMMA = r"\s*[+-]?\d*,\d+(?:[eE][+-]?\d+)?(?:\s*[^\d\s,].*)?"
 _QUANTITY = r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.+?)\s*"
 
 
@@ -49,6 +50,8 @@ def quantity(text: str) -> Quantity:
     with contextlib.suppress(ValueError):
         return Quantity(float(text))
     match = re.fullmatch(_QUANTITY, text)
+    if re.fullmatch(_DECIMAL_COMMA, text):
+        raise ValueError(f"{text!r} has a comma in its number; write {text.strip().replace(',', '.')!r}")
     if match is None:
         raise ValueError(f"{text!r} is not a number, with or without a unit")
     _parsed(match[2])
@@ -254,7 +257,8 @@ def _parsed(text: str) -> Any:
     Exponents of more than one digit and powers of powers are refused, since pint could take forever to compute them.
     """
     needed = "a unit such as um, nm, N or Pa s is needed"
-    spelled = re.sub(_POWER, lambda match: f"{match[1] or ')'}**{match[2] or match[3]}", text)
+    spelled = re.sub("[·⋅]", "*", text)
+    spelled = re.sub(_POWER, lambda match: f"{match[1] or ')'}**{match[2] or match[3]}", spelled)
     if not re.fullmatch(_ALLOWED, text) or re.search(_LONG_POWER, spelled) or spelled.count("**") > 6:
         raise ValueError(f"unit {text[:60]!r}: {needed}")
     try:

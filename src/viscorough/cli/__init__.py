@@ -5,8 +5,7 @@ The exit codes are
 - 0: the output file is complete, even if the closing line could not be written to standard output,
 - 1: a solver did not converge,
 - 2: the user made a mistake. Standard error then shows one line, "viscorough COMMAND: the error, its place, the allowed
-  values", and no output file is left. A warning counts as a mistake if warnings are errors (PYTHONWARNINGS=error),
-- 3: a table of several files of heights is complete, but some of the files failed.
+  values", and no output file is left. A warning counts as a mistake if warnings are errors (PYTHONWARNINGS=error).
 
 Modules that take long to import are imported only by the commands that need them, so help and messages come quickly.
 """
@@ -23,7 +22,7 @@ from click.shell_completion import shell_complete
 from viscorough.basics.argument_names import spelled_as_options
 from viscorough.basics.errors import ConvergenceError
 from viscorough.basics.interrupts import on_interrupt
-from viscorough.cli import messages
+from viscorough.cli import messages, options
 
 # Name, fixed by click, of the environment variable that the shell sets when it asks for completions.
 _COMPLETE = "_VISCOROUGH_COMPLETE"
@@ -38,8 +37,8 @@ def cli(context: click.Context) -> None:
     """Penetration of rough rigid indenters into a linearly viscous half-space.
 
     \b
-    Example: a map of heights in metres, points 2 micrometres apart, pressed by 5 N into 1e6 Pa s:
-        viscorough indent heights.npy --spacing 2e-6 -o curve.nc
+    Example: a map of heights in micrometres, points 2 um apart, pressed by 5 N into 1e6 Pa s:
+        viscorough indent heights.npy --spacing 2 --unit um -o curve.nc
         viscorough kinetics curve.nc --force 5 --viscosity 1e6 -o kinetics.nc
 
     \b
@@ -72,6 +71,7 @@ def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int
             spelled_as_options(),
             commands.make_context("viscorough", arguments, obj=caught) as context,
         ):
+            options.refuse_split_quantity(arguments)
             commands.invoke(context)
         for text in messages.warning_texts(caught):
             messages.complain(command, f"warning: {text}")

@@ -47,8 +47,10 @@ def printable_path(file: Path) -> str:
 LONGEST = 60  # longest time allowed for opening a file, in seconds
 
 
-def check_opens(path: Path) -> None:
+def check_opens(path: Path, content: bytes | None = None) -> None:
     """Raise a one-line ValueError unless the NetCDF file can be opened.
+
+    content : content of the file, if it was read before
 
     A damaged file can make the HDF5 library run without end, and Python cannot interrupt the library. Opening normally
     takes milliseconds. If it takes more than LONGEST seconds, the process writes one line and ends with exit code 2.
@@ -60,13 +62,12 @@ def check_opens(path: Path) -> None:
         messages.complain(command, text)
         os._exit(2)
 
-    context = click.get_current_context(silent=True)  # None in a process of `scans`, which has no command
-    command = context.command_path if context else "viscorough"
+    command = click.get_current_context().command_path
     timer = threading.Timer(LONGEST, end)
     timer.daemon = True
     timer.start()
     try:
-        with netcdf.opened(path, checked=False):
+        with netcdf.opened(path, content, checked=False):
             pass
     finally:
         timer.cancel()
@@ -100,11 +101,11 @@ def load_from_options(
     force_history: Path | None,
     length_unit: str,
     depth_history: Path | None = None,
-    columns: dict[str, str] | None = None,
+    columns: dict[str, int] | None = None,
 ) -> tuple[Any, dict[str, Any]]:
     """Return (load, attributes for the output file) from --force, --force-history or --depth-history.
 
-    columns : {quantity: name or number of its column in the history}
+    columns : {quantity: number of its column in the history}
 
     One of the three options is given; the others are None. The load is a number for --force, and a Load for a history.
     """

@@ -1,27 +1,22 @@
-"""`viscorough indent`: compute loading curves of maps of heights."""
+"""`viscorough indent`: compute the loading curve of a map of heights."""
 
 from __future__ import annotations
 
-import functools
 import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 import viscorough
 from viscorough.basics.summaries import with_unit
 from viscorough.basics.units import Quantity, result_units
-from viscorough.cli import files, messages, options, scans, surface_options
-
-if TYPE_CHECKING:
-    from viscorough.basics.types import Progress
-    from viscorough.io.contact_tables import Rows
+from viscorough.cli import files, messages, options, surface_options
 
 
 @click.command(short_help="Loading curve of an indenter on an elastic half-space.")
-@surface_options.heights_input(several=True)
+@surface_options.heights_input()
 @options.output("CURVE.nc")
 @click.option(
     "--depths", type=options.Increasing("m"), help="Levels at exactly these depths  [default: as the tolerance needs]"
@@ -32,11 +27,10 @@ if TYPE_CHECKING:
 @options.until(0.9)
 @click.option("--until-force", type=options.QuantityOption("N"), help="F/G, or F with a modulus, at which to stop.")
 @options.elastic_constants
-@options.jobs
 @options.threads
 @options.progress
 def indent(
-    inputs: Sequence[surface_options.HeightsFile],
+    heights: surface_options.HeightsFile,
     output: Path,
     *,
     depths: Sequence[Quantity] | None,
@@ -45,17 +39,16 @@ def indent(
     grid_error: bool,
     until_fraction: float,
     until_force: Quantity | None,
-    jobs: int,
     threads: int,
     progress: bool | None,
     **constants: Any,
 ) -> None:
-    """Compute loading curves of indenters pressed into an elastic half-space.
+    """Compute the loading curve of an indenter pressed into an elastic half-space.
 
-    HEIGHTS is a map of heights: .npy, NetCDF, text (a matrix, an ESRI grid, columns x, y, z), TIFF, or a format of an
-    instrument, which needs pip install "viscorough[formats]". x runs along each row, y from row to row. Spacing and
-    unit are read from the file if it states them. Without a unit, heights, spacing and depths are in one unit of length
-    of your choice.
+    HEIGHTS is a map of heights: a matrix (.npy, or text with one delimiter), NetCDF, or a binary file of an instrument,
+    which needs pip install "viscorough[formats]". x runs along each row, y from row to row. Spacing and unit are read
+    from the file if it states them; a matrix needs --spacing and --unit. With --unit 1, heights, spacing and depths
+    are in one unit of length of your choice.
 
     Larger is higher: the highest point touches first. Points that are nan lie outside the indenter.
 
@@ -75,32 +68,19 @@ def indent(
     level, and force_grid_error the error of the force at the depth of each level. area_change is the relative change of
     the contact area if the spacing is halved.
 
-    Several files of HEIGHTS need a table, -o TABLE.csv. The table has one row for each file and level, with lengths in
-    um, areas in um2 and, with a modulus, forces in N, stiffnesses in N/m and pressures in MPa. With --depths or
-    --forces it has the same columns as the table of viscorough contact. The help of viscorough contact also explains
-    failures and interrupts.
-
     \b
     Example:
-        viscorough indent heights.npy --spacing 2e-6 --depths 1e-6,2e-6,4e-6 \\
+        viscorough indent heights.npy --spacing 2 --unit um --depths 1,2,4 \\
             -o curve.nc
         viscorough indent scan.txt --spacing 0.37,0.5 --unit um --detrend plane \\
             -o curve.nc
-        viscorough indent scans/*.txt --forces "1 mN,5 mN" --young "2 MPa" \\
-            -o table.csv
     """
     settings: dict[str, Any] = {"depths": depths, "forces": forces, "grid_error": grid_error or None}
     settings |= {"until_fraction": until_fraction, "until_force": until_force}
     _check_exclusive(settings)
     settings["tolerance"] = tolerance
     options.elasticity(length_unit="m", **constants)  # raises an error if these constants contradict each other
-    if len(inputs) > 1 and output.suffix.lower() == ".csv":
-        evaluate = functools.partial(_rows, settings=settings, constants=constants, threads=threads)
-        settings |= constants
-        scans.tabulate(inputs, output, evaluate, settings=settings, jobs=jobs, progress=progress)
-        return
-    file = scans.only_one(inputs, output)
-    indenter = surface_options.read_indenter(file, output)
+    indenter = surface_options.read_indenter(heights, output)
     modulus, elastic_constants = options.elasticity(length_unit=indenter.length_unit, **constants)
 
     from viscorough.io.curves import curve_to_content
@@ -109,7 +89,7 @@ def indent(
         curve = viscorough.indent(
             indenter, **_arguments(settings), shear_modulus=modulus, progress=report, threads=threads
         )
-    attributes = file.attributes(indenter) | elastic_constants
+    attributes = heights.attributes(indenter) | elastic_constants
     files.write_output(curve_to_content(curve, modulus), output, **attributes)
     lines = [_last_level(curve, indenter, modulus), curve.grid_error_text]
     messages.announce(output, "\n".join(filter(None, lines)))
@@ -150,29 +130,3 @@ def _last_level(curve: viscorough.LoadingCurve, indenter: viscorough.Indenter, m
         text += f", F {read['force'].text(curve.force[-1], 6)}, k {read['stiffness'].text(curve.stiffness[-1])}"
         text += f", contact area {read['area'].text(curve.contact_count[-1] * area)},"
     return f"{text} with {curve.contact_count[-1]} of {curve.elements} elements in contact"
-
-
-def _rows(
-    indenter: viscorough.Indenter,
-    *,
-    settings: dict[str, Any],
-    constants: dict[str, Any],
-    threads: int,
-    progress: Progress | None = None,
-) -> Rows:
-    """Return the rows of a table, one for each level, and {column: unit}.
-
-    settings : {name of an option: its value, or None if the option is not given}
-    constants : arguments of options.elasticity
-    """
-    how: dict[str, Any] = {"threads": threads, "progress": progress}
-    if settings["depths"] is not None or settings["forces"] is not None:
-        loads = {"depth": settings["depths"], "force": settings["forces"], "tolerance": settings["tolerance"]}
-        grid_error = bool(settings["grid_error"])
-        return scans.rows_for_options(indenter, **loads, grid_error=grid_error, constants=constants, **how)
-
-    from viscorough.io.contact_tables import rows_of_curve
-
-    modulus, _ = options.elasticity(length_unit=indenter.length_unit, **constants)
-    curve = viscorough.indent(indenter, **_arguments(settings), shear_modulus=modulus, **how)
-    return rows_of_curve(curve, indenter, modulus)

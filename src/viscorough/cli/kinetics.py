@@ -38,7 +38,7 @@ def kinetics(
     force: Quantity | None,
     force_history: Path | None,
     depth_history: Path | None,
-    columns: dict[str, str] | None,
+    columns: dict[str, int] | None,
     viscosity: Quantity | None,
     medium: Path | None,
     times: list[float] | None,

@@ -43,7 +43,7 @@ def march(
     medium: Path | None,
     times: Any,
     force_history: Path | None,
-    columns: dict[str, str] | None,
+    columns: dict[str, int] | None,
     until_fraction: float | None,
     progress: bool,
 ) -> None:
@@ -57,9 +57,9 @@ def march(
 
     \b
     Example:
-        viscorough march heights.npy --spacing 2e-6 --method events --times 1,2,4,8 \\
+        viscorough march heights.npy --spacing 2 --unit um --method events --times 1,2,4,8 \\
             -o events.nc
-        viscorough march heights.npy --spacing 2e-6 --method implicit \\
+        viscorough march heights.npy --spacing 2 --unit um --method implicit \\
             --medium rubber.yaml \\
             --force-history pulses.csv -o pulses.nc
     """

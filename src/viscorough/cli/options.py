@@ -4,7 +4,7 @@ import contextlib
 import itertools
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,8 @@ from viscorough.basics.elasticity import INCOMPRESSIBLE, shear_modulus_of
 from viscorough.basics.units import Quantity
 from viscorough.io import suffixes
 
+# Word of a unit, such as mN or Pa·s.
+_UNIT_WORD = re.compile(r"[^\W\d_][^\W_]*(?:[·*/^][^\W_]+)*")
 # Largest number of times in an option of the form FIRST:LAST:COUNT.
 _MOST_TIMES = 1_000_000
 
@@ -25,6 +27,27 @@ def require(condition: bool, text: str) -> None:
         raise click.UsageError(text)
 
 
+def refuse_split_quantity(arguments: Sequence[str]) -> None:
+    """Raise UsageError if the shell has split a quantity with a unit, as in --force 1 mN, into several arguments.
+
+    arguments : words of a command line
+    """
+    for place, (option, number) in enumerate(itertools.pairwise(arguments)):
+        if not (option.startswith("--") and re.fullmatch(r"[\d.,eE+-]*\d", number)):
+            continue
+        unit = " ".join(itertools.takewhile(_UNIT_WORD.fullmatch, arguments[place + 2 :]))
+        if unit and not Path(unit.split()[0]).exists() and _is_unit(unit):
+            text = f'{option} {number} {unit}: the shell splits this value; write {option} "{number} {unit}"'
+            raise click.UsageError(text)
+
+
+def _is_unit(text: str) -> bool:
+    with contextlib.suppress(ValueError):
+        units.factor(text, text)
+        return True
+    return False
+
+
 class PositiveNumber(click.FloatRange):
     """Type of options: a finite number larger than `above` and not larger than `maximum`, if there is a maximum."""
 
@@ -32,6 +55,8 @@ class PositiveNumber(click.FloatRange):
         super().__init__(above, maximum, min_open=True)
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        if isinstance(value, str) and re.fullmatch(r"\d+,\d+", value):
+            self.fail(f"{value!r} has a comma in its number; write {value.replace(',', '.')!r}", param, ctx)
         number: float = super().convert(value, param, ctx)
         if not math.isfinite(number):
             self.fail(f"{value!r} is not a finite number", param, ctx)
@@ -61,6 +86,8 @@ class QuantityOption(click.ParamType):
                         return stated
             stated.to(self.units[0])
         except ValueError as error:
+            if " has a comma in its number" in str(error):
+                raise click.BadParameter(str(error), ctx, param) from error
             reason = f" ({error})" if str(error).startswith("unit ") else ""
         text = f"{value!r} is not a number above 0 and finite, plain or with a unit such as {' or '.join(self.units)}"
         raise click.BadParameter(f"{text}{reason}", ctx, param)
@@ -82,7 +109,10 @@ class Increasing(click.ParamType):
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> list[Any]:
         entries = [self.entry.convert(entry.strip(), param, ctx) for entry in value.split(",")]
         if len({bool(entry.unit) for entry in entries if isinstance(entry, Quantity)}) == 2:
-            self.fail(f"{value!r}: some numbers have a unit; all or none of them may have one", param, ctx)
+            unit = next(entry.unit for entry in entries if entry.unit)
+            each = ",".join(f"{entry.number:g} {unit}" for entry in entries)
+            one = f", or {value.replace(',', '.')!r} for one number" if re.match(r"\d+,\d+\s*\D+$", value) else ""
+            self.fail(f"{value!r}: some numbers have a unit; write {each!r}{one}", param, ctx)
         numbers = [entry.to(self.unit) if self.unit else entry for entry in entries]
         if any(later <= earlier for earlier, later in itertools.pairwise(numbers)):
             self.fail(f"{value!r}: needed are increasing numbers, each larger than the one before", param, ctx)
@@ -110,17 +140,15 @@ class Times(Increasing):
 
 
 class ColumnChoice(click.ParamType):
-    """Type of options: names or numbers of columns, such as time=1,force=Load, converted to {quantity: text}."""
+    """Type of options: numbers of columns, such as time=1,force=3, converted to {quantity: number}."""
 
     name = "columns"
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> dict[str, str]:
-        entries = [entry.partition("=") for entry in re.split(r",(?=\s*\w+\s*=)", value)]
-        chosen = {name.strip(): column.strip() for name, _, column in entries}
-        allowed = ("time", "depth", "force")
-        if len(chosen) < len(entries) or not all(chosen.values()) or not chosen.keys() <= set(allowed):
-            self.fail(f"{value!r} is not like time=1,depth=3,force=2; allowed: {', '.join(allowed)}", param, ctx)
-        return chosen
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> dict[str, int]:
+        entries = re.findall(r"(time|depth|force)=([1-9]\d{0,5})", value, re.ASCII)
+        if ",".join(map("=".join, entries)) != value.replace(" ", "") or len(dict(entries)) < len(entries):
+            self.fail(f"{value!r} is not like time=1,force=3, with numbers of columns from 1", param, ctx)
+        return {name: int(number) for name, number in entries}
 
 
 FILE = click.Path(path_type=Path)
@@ -156,21 +184,20 @@ force_history = click.option(
     "--force-history",
     type=FILE,
     metavar="FORCE.csv",
-    help="Columns of times and forces, instead of --force: F >= 0, linear in between; a time given twice is a step.",
+    help="Columns time (s) and force (N), instead of --force: F >= 0, linear in between; a time given twice is a step.",
 )
 depth_history = click.option(
     "--depth-history",
     type=FILE,
     metavar="DEPTH.csv",
-    help="Columns of times and depths, instead of a force: linear in between; a time given twice is a step. A depth "
-    "below 0 lifts the indenter.",
+    help="Columns time (s) and depth (um), instead of a force: linear in between; a time given twice is a step. A "
+    "depth below 0 lifts the indenter.",
 )
 columns = click.option(
     "--columns",
     type=ColumnChoice(),
-    metavar="time=A,force=B",
-    help="Names or numbers, from 1, of the columns in files of times and depths or forces whose heading does not name "
-    "them, as in time=1,depth=3; '2 [nm]' states a unit.",
+    metavar="time=1,force=3",
+    help="Numbers of the columns, from 1, in files of times and forces or depths without headings.",
 )
 viscosity = click.option("--viscosity", type=QuantityOption("Pa s"), help="Shear viscosity of a Newtonian half-space.")
 medium = click.option(
@@ -187,12 +214,6 @@ threads = click.option(
     type=click.IntRange(1, 1024),
     default=1,
     help="Threads of the processor; the result does not depend on them.",
-)
-jobs = click.option(
-    "--jobs",
-    type=click.IntRange(1, 1024),
-    default=1,
-    help="Files that are evaluated at a time, each in a process; the results do not depend on it.",
 )
 _PROGRESS = "Show progress on standard error, after a second  [default: if it is a terminal]"
 progress = click.option("--progress/--no-progress", default=None, help=_PROGRESS)

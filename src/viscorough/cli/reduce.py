@@ -30,14 +30,15 @@ def reduce(
 ) -> None:
     """Compute the loading curve of a line by the method of dimensionality reduction (MDR).
 
-    LINE_OR_MAP is a file with the heights of a line: .npy or NetCDF, as viscorough generate --points makes it, or a
-    measured profile, which is a text with a column of heights or with columns x and z. Independent springs replace the
-    half-space. LINE_OR_MAP can also be a map, as for viscorough indent. Lines are then made with the radially averaged
-    power spectrum and the rms height of the map, and with random phases.
+    LINE_OR_MAP is a file with the heights of a line: NetCDF, as viscorough generate --points makes it, .npy, or a text
+    with one column of heights. Independent springs replace the half-space. LINE_OR_MAP can also be a map, as for
+    viscorough indent. Lines are then made with the radially averaged power spectrum and the rms height of the map, and
+    with random phases.
 
-    Limits: a line made from a map represents random surfaces with its spectrum, not the map itself. The mean stiffness
-    of many surfaces is right to about 20 %. The stiffness of a single surface is wrong by a factor of 1.2 to 2, and
-    contact area and contact positions have no meaning.
+    Limits: a measured profile is a cut through a surface, for which this method does not hold; it is too stiff by a
+    factor of 1.1 to 1.6. A line made from a map represents random surfaces with its spectrum, not the map itself. The
+    mean stiffness of many surfaces is right to about 20 %. The stiffness of a single surface is wrong by a factor of
+    1.2 to 2, and contact area and contact positions have no meaning.
 
     CURVE.nc is as for viscorough indent; with several --realizations its dimensions are realization and level.
 
@@ -50,22 +51,23 @@ def reduce(
     """
     from viscorough import mdr
     from viscorough.io.curves import curve_to_content, stack_curves
-    from viscorough.io.heights import dimensions_of_heights, read_line
+    from viscorough.io.heights import line_of
 
-    line_or_map = heights.path
+    line_or_map, stated = heights.path, heights.parsed()
     files.check_output(output, heights=line_or_map)
-    states_map = "," in heights.options.get("spacing", "")  # two spacings are given, as for a map
-    if not states_map and dimensions_of_heights(line_or_map) == 1:
+    content = heights.content()
+    scan = heights.scan(content, dimensions=None)
+    if scan.heights.ndim == 1:
         text = "--realizations and --seed are for maps, of which lines are made; this is a line"
         options.require(not realizations and seed is None, text)
         text = "--channel and preparation are for maps; this is a line"
-        options.require(heights.options.keys() <= {"spacing", "unit", "lateral_unit"}, text)
+        options.require(heights.options.keys() <= {"spacing", "unit"}, text)
         about = {"heights": files.printable_name(line_or_map)}
-        lines = [read_line(line_or_map, **heights.options)]
+        lines = [line_of(line_or_map, content, scan, **stated)]
     else:
         no_table = "--realizations: several curves are no table; a NetCDF file (.nc) is needed"
         options.require((realizations or 1) == 1 or output.suffix.lower() != ".csv", no_table)
-        indenter = surface_options.read_indenter(heights, output)
+        indenter = heights.indenter(scan)
         about = heights.attributes(indenter) | {"realizations": realizations or 1, "seed": seed or 0}
         lines = (mdr.line_of_map(indenter, [seed or 0, index]) for index in range(realizations or 1))
         messages.warn(_LIMITS_OF_LINES)

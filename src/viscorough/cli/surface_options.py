@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -16,8 +16,11 @@ from viscorough.basics import units
 from viscorough.basics.units import Quantity
 from viscorough.cli import files, options
 
+if TYPE_CHECKING:
+    from viscorough.io.scan import Scan
+
 # Options that state how to read a file.
-_READING = ("spacing", "unit", "lateral_unit", "channel")
+_READING = ("spacing", "unit", "channel")
 # Options that change the heights.
 _PREPARATION = ("scale", "nodata", "crop", "flip", "detrend", "fill")
 
@@ -47,9 +50,45 @@ class HeightsFile:
 
     def read(self) -> viscorough.Indenter:
         """Read and prepare the heights. Raises ValueError for invalid heights."""
-        if self.path.suffix == ".nc":
-            files.check_opens(self.path)
-        return viscorough.read_heights(self.path, **self.parsed())
+        self.parsed()  # raises an error for a wrong option before the file is read
+        return self.indenter(self.scan(self.content(), dimensions=2))
+
+    def content(self) -> bytes:
+        """Return the content of the file. Raises ValueError for a file that cannot be read or opened."""
+        from viscorough.io import heights, netcdf
+
+        content = heights.content_of(self.path)
+        if netcdf.is_netcdf(content):
+            files.check_opens(self.path, content)
+        return content
+
+    def scan(self, content: bytes, dimensions: int | None) -> Scan:
+        """Return the Scan in the content of the file.
+
+        dimensions : 2 for a map, None for a map or a line
+
+        Raises ValueError if neither the file nor the user states the unit of length.
+        """
+        from viscorough.basics import units
+        from viscorough.io import heights
+        from viscorough.io.scan import NOT_STATED
+
+        channel, flip = self.options.get("channel"), self.options.get("flip", False)
+        scan = heights.scan_of(self.path, content, channel=channel, dimensions=dimensions, flip=flip)
+        scale = self.parsed().get("scale")
+        if scan.unit == NOT_STATED and "unit" not in self.options and not (scale and scale.unit):
+            text = "the file states no unit of length; --unit, as --unit um, is needed"
+            spacing = "" if scan.spacing is not None or "spacing" in self.options else ", and --spacing"
+            raise ValueError(f"{self.path}: {text}{spacing}, or --unit {units.UNKNOWN} for consistent units")
+        return scan
+
+    def indenter(self, scan: Scan) -> viscorough.Indenter:
+        """Convert the Scan of a map to an indenter, and prepare its heights."""
+        from viscorough.io import heights
+
+        options = self.parsed()
+        options.pop("channel", None)
+        return heights.map_of(self.path, scan, **options)
 
     def attributes(self, indenter: viscorough.Indenter) -> dict[str, object]:
         """Return attributes for an output file: name of the file of heights, spacings, unit, channel, preparation."""
@@ -63,10 +102,20 @@ class HeightsFile:
 
 
 def _spacing(text: str) -> Quantity | tuple[Quantity, ...]:
-    """Convert "DX" to one distance, or "DX,DY" to the distances between columns and between rows."""
-    distances = tuple(units.quantity(entry.strip()) for entry in text.split(","))
-    if len(distances) > 2:
+    """Convert "DX" to one distance, or "DX,DY" to the distances between columns and between rows.
+
+    Raises ValueError for a comma that may be a decimal mark, as in "1,5" and "1,5 um".
+    """
+    entries = [entry.strip() for entry in text.split(",")]
+    if len(entries) > 2:
         raise ValueError("is not DX or DX,DY")
+    if len(entries) == 2 and entries[0].isdecimal() and entries[1][:1].isdecimal():
+        number, unit = re.fullmatch(r"(\d+\.?\d*)\s*(.*)", entries[1]).groups()  # type: ignore[union-attr]
+        if "." not in number or unit:
+            unit = unit or "um"
+            both = f"{entries[0]} {unit},{number} {unit}"
+            raise ValueError(f"write {text.replace(',', '.')!r} for one distance, or {both!r} for two")
+    distances = tuple(map(units.quantity, entries))
     return distances if len(distances) == 2 else distances[0]
 
 
@@ -87,25 +136,23 @@ _VALUES: dict[str, Callable[[str], Any]] = {
 }
 
 
-def heights_input(argument: str = "heights", *, several: bool = False) -> Callable[..., Any]:
+def heights_input(argument: str = "heights") -> Callable[..., Any]:
     """Return a decorator that adds an argument for a file of heights, and the options for reading it, to a command.
 
     The command receives the file and its options as the argument `heights`, a HeightsFile.
 
     argument : name of the argument in the help
-    several : True if several files are allowed. The command then receives the argument `inputs`, a list of HeightsFile
     """
 
     def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
-        @click.argument(argument, type=options.FILE, nargs=-1 if several else 1, required=True)
+        @click.argument(argument, type=options.FILE, required=True)
         @click.option(
             "--spacing",
             metavar="DX[,DY]",
             help="Distance between neighbouring points, from column to column and from row to row if they differ; "
             "plain numbers are in the unit of the heights. Needed where the file states none.",
         )
-        @click.option("--unit", metavar="UNIT", help="Unit of heights, such as um, if the file has none.")
-        @click.option("--lateral-unit", metavar="UNIT", help="Unit of x, y and plain spacings, if it is another one.")
+        @click.option("--unit", metavar="UNIT", help="Unit of heights, such as um; needed where the file states none.")
         @click.option("--scale", metavar="QUANTITY", help="Factor of the heights, such as 0.053 nm per count.")
         @click.option("--channel", help="Name or number of the map to read from a file that holds several.")
         @click.option("--nodata", metavar="VALUE", help="Values, such as -9999, of points not measured.")
@@ -125,11 +172,9 @@ def heights_input(argument: str = "heights", *, several: bool = False) -> Callab
         )
         @functools.wraps(command)
         def packed(**values: Any) -> Any:
-            paths, stated = values.pop(argument), {name: values.pop(name) for name in _READING + _PREPARATION}
+            path, stated = values.pop(argument), {name: values.pop(name) for name in _READING + _PREPARATION}
             given = {name: value for name, value in stated.items() if value not in (None, False, "none")}
-            if several:
-                return command(inputs=[HeightsFile(path, given) for path in paths], **values)
-            return command(heights=HeightsFile(paths, given), **values)
+            return command(heights=HeightsFile(path, given), **values)
 
         return packed
 

@@ -31,9 +31,12 @@ _TRANSLATIONS = {
     r"Header does not contain .*|Cannot parse header.*|Structure entry .*": "its header is damaged",
     r"NetCDF: Unknown file format": "it is no NetCDF file",
     r"NetCDF: (?:HDF|h5py) error.*|h5py error.*|Unable to (?:synchronously )?open .*|'\w+'": "its structure is damaged",
-    r"not a TIFF file.*": "it is no TIFF file",
 }
 _NO_LOCKS = "its file system has no file locks; the environment variable HDF5_USE_FILE_LOCKING=FALSE is needed"
+
+
+class Refused(ValueError):
+    """Refusal of the content of a file, which states the remedy; `reading` adds the path to the message."""
 
 
 def reason(error: BaseException) -> str:
@@ -82,8 +85,9 @@ def path_named(path: FilePath) -> Iterator[None]:
 def reading(path: FilePath, needed: str) -> Iterator[None]:
     """Turn every error in a `with` block that reads the file `path` into a one-line ValueError.
 
-    Libraries raise errors of many kinds for a damaged file. Pipes and devices are refused: opening a pipe would wait
-    for a writer, and a device may have no end. MemoryError is not changed, since it is no fault of the file.
+    Libraries raise errors of many kinds for a damaged file. A Refused keeps its message. Pipes and devices are refused:
+    opening a pipe would wait for a writer, and a device may have no end. MemoryError is not changed, since it is no
+    fault of the file.
 
     needed : end of the message, which states what the file must contain, such as "a whole NetCDF file is needed"
     """
@@ -95,9 +99,12 @@ def reading(path: FilePath, needed: str) -> Iterator[None]:
         yield
     except MemoryError:
         raise
+    except Refused as error:
+        text = str(error)
+        raise Refused(text if text.startswith(f"{path}: ") else f"{path}: {text}") from error
     except Exception as error:
         cause = _NO_LOCKS if _lacks_locks(path, error) else _shortened(reason(error))
-        raise ValueError(f"{path}: not readable ({cause}); {needed}") from error
+        raise Refused(f"{path}: not readable ({cause}); {needed}") from error
 
 
 def check_output(path: FilePath) -> Path:

@@ -7,18 +7,24 @@ from typing import Any, NamedTuple
 
 import netCDF4
 import numpy as np
+from numpy.typing import NDArray
 
 from viscorough import __version__
 from viscorough.basics.arrays import read_only
 from viscorough.basics.summaries import si_unit, unit_power
 from viscorough.basics.types import Array, FilePath
-from viscorough.io.atomic import atomic_write, reading
+from viscorough.io.atomic import Refused, atomic_write, reading
 from viscorough.io.digest import add_digest, check_digest
-from viscorough.io.unpacking import STORAGE, unpacked
 
 # {name of a variable: (long_name, unit)}. The unit is a number n (the unit of length to the power n), "time" (always in
 # s), "velocity" (length per s), or an SI unit such as "N". If the unit of length is not known, SI units become "1".
 Quantities = Mapping[str, tuple[str, int | str]]
+# Attributes that netCDF4 compares with stored values; it ignores them if their type is not that of the values.
+_MARKS = ("_FillValue", "missing_value", "valid_range", "valid_min", "valid_max")
+# Attributes that describe how values are stored. They do not apply to unpacked values.
+_STORAGE = (*_MARKS, "scale_factor", "add_offset", "_Unsigned")
+# First bytes of NetCDF files: of the classic formats, and of HDF5, which may follow a block of a user.
+_CLASSIC, _HDF5, _HDF5_OFFSETS = (b"CDF\x01", b"CDF\x02", b"CDF\x05"), b"\x89HDF\r\n\x1a\n", (0, 512, 1024, 2048)
 # Variables of at least this many values are compressed. For smaller variables, the chunks that compression needs take
 # more room than compression saves. Level 1 takes half the time of the usual level 4, and makes files a few percent
 # larger.
@@ -139,27 +145,61 @@ def write(content: Content, path: FilePath) -> None:
             stored[...] = values
 
 
+def is_netcdf(content: bytes) -> bool:
+    """Return True if a file begins like a NetCDF file or another HDF5 file."""
+    return content.startswith(_CLASSIC) or any(content.startswith(_HDF5, offset) for offset in _HDF5_OFFSETS)
+
+
+def is_own(path: FilePath, content: bytes) -> bool:
+    """Return True if viscorough wrote a NetCDF file."""
+    with opened(path, content, checked=False) as file:
+        return str(getattr(file, "source", "")).startswith("viscorough ")
+
+
 @contextmanager
-def opened(path: FilePath, *, checked: bool = True) -> Iterator[netCDF4.Dataset]:
+def opened(path: FilePath, content: bytes | None = None, *, checked: bool = True) -> Iterator[netCDF4.Dataset]:
     """Yield the netCDF4.Dataset of a file. Every fault of the file becomes a one-line ValueError.
 
+    content : content of the file, if it was read before
     checked : True to read the whole file and compare its content with its digest (io.digest)
     """
-    with reading(path, "a whole NetCDF file is needed"), netCDF4.Dataset(path) as file:
+    with reading(path, "a whole NetCDF file is needed"), netCDF4.Dataset(path, memory=content) as file:
         if checked:
             check_digest(file)
         yield file
 
 
-def read(path: FilePath) -> Content:
+def unpacked(variable: netCDF4.Variable) -> NDArray[Any]:
+    """Return the values of a variable as netCDF4 unpacks them, as a masked array if any are missing.
+
+    Raises ValueError for attributes that netCDF4 would ignore: marks of missing values that have another type than the
+    variable, such as a missing value of 1e20 in double precision in a variable of single precision, and scales that
+    are no number.
+    """
+    is_number = variable.dtype is not str and np.dtype(variable.dtype).kind in "iuf"
+    for name in sorted(set(variable.ncattrs()) & set(_STORAGE)) if is_number else ():
+        value = np.asarray(variable.getncattr(name))
+        if name in _MARKS and value.dtype != np.dtype(variable.dtype):
+            text = f"of {variable.name} is {value.dtype}, but the variable is {variable.dtype}"
+            raise Refused(f"attribute {name} {text}; the same type is needed")
+        if name in ("scale_factor", "add_offset") and (value.dtype.kind not in "iuf" or value.size != 1):
+            raise Refused(f"attribute {name} of {variable.name} is {value.tolist()!r}; a number is needed")
+        if name == "_Unsigned" and str(value).lower() not in ("true", "false"):
+            raise Refused(f"attribute _Unsigned of {variable.name} is {str(value)!r}; 'true' or 'false' is needed")
+    variable.set_always_mask(False)
+    return variable[...]
+
+
+def read(path: FilePath, content: bytes | None = None) -> Content:
     """Read a NetCDF file into memory as a Content; missing values are nan.
+
+    content : content of the file, if it was read before
 
     Raises a one-line ValueError if the file is missing or damaged.
     """
-    with opened(path) as file:
+    with opened(path, content) as file:
         variables = {}
         for name, variable in file.variables.items():
-            # Attributes that describe how values are stored do not apply to unpacked values.
-            attributes = {key: variable.getncattr(key) for key in variable.ncattrs() if key not in STORAGE}
+            attributes = {key: variable.getncattr(key) for key in variable.ncattrs() if key not in _STORAGE}
             variables[name] = Variable(variable.dimensions, read_only(unpacked(variable)), attributes)
         return Content(variables, {name: file.getncattr(name) for name in file.ncattrs()}, path)

@@ -1,28 +1,14 @@
-"""Make the tables of measured surfaces: lengths, power laws of groups of scans, kinetics, and elastic contacts."""
+"""Make the tables of measured surfaces: lengths, power laws of groups of scans, and kinetics."""
 
 import json
-import logging
-from functools import partial
 from itertools import chain, product
-from pathlib import Path
 
 import pandas as pd
 
-from viscorough import __version__
-from viscorough.basics.elasticity import young_over_shear
-from viscorough.io.contact_tables import (
-    SI_COLUMNS,
-    FileRows,
-    digest_of_file,
-    evaluated,
-    lines_of_files,
-    rows_at_loads,
-)
 from viscorough.io.curves import unstack_curves
 from viscorough.viscous.kinetics import kinetics
 from viscorough_study.comparisons.media_kinetics import named_media, reached_times
 from viscorough_study.ensembles.averages import abscissa
-from viscorough_study.ensembles.measured import measured_indenter
 from viscorough_study.ensembles.pool import ensembles
 from viscorough_study.fits.fit_table import fit_rows
 
@@ -46,49 +32,6 @@ KINETICS = {
     "depth": ("depth u", "m"),
     "velocity": ("velocity v = du/dt", "m s-1"),
 }
-CONTACTS = {
-    "scan": ("name of the scan", None),
-    "group": ("group of scans", None),
-    **SI_COLUMNS,
-}
-# Settings for reading the file of a scan, and settings of the load. Together with the content of the file, they
-# determine the rows of the scan in the table of contacts.
-_READING = ("spacing", "unit", "preparation")
-_LOADING = ("forces", "young_modulus", "poisson_ratio")
-
-
-def measured_contacts(scans):
-    """Return the table of contacts of measured surfaces with an elastic half-space; its columns are `CONTACTS`.
-
-    For each scan the table has the numbers that the command `viscorough contact --grid-error` gives for the same
-    modulus and forces. A scan that cannot be evaluated has one row, with the reason in the column `error`.
-
-    scans : mappings with name, group, file, spacing, unit, preparation, forces [N], young_modulus [Pa] and
-        poisson_ratio. A scan without forces, or with the modulus None, has no rows
-    """
-    lines = []
-    for scan in scans:
-        if scan["young_modulus"] is None or not scan["forces"]:
-            continue
-        result = _evaluated_scan(scan)
-        if result.error:
-            logging.warning("%s: %s", scan["file"], result.error)
-        labels = {"scan": scan["name"], "group": scan["group"]}
-        lines += [labels | line for line in lines_of_files([result])]
-    return pd.DataFrame(lines, columns=list(CONTACTS))
-
-
-def _evaluated_scan(scan):
-    """Solve the elastic contact of one scan under all its forces, and return its FileRows (io.contact_tables)."""
-    reading, loading = ({name: scan[name] for name in names} for names in (_READING, _LOADING))
-    modulus = scan["young_modulus"] / young_over_shear(scan["poisson_ratio"])
-    settings = f"{__version__} {json.dumps(reading | loading, sort_keys=True)}"
-    return evaluated(
-        FileRows(str(scan["file"]), digest_of_file(scan["file"], settings)),
-        Path(scan["file"]),
-        partial(measured_indenter, scan["file"], **reading),
-        partial(rows_at_loads, force=sorted(scan["forces"]), shear_modulus=modulus, grid_error=True),
-    )
 
 
 def measured_tables(pool, curves, *, names, forces, fit, seed, **loading):

@@ -4,6 +4,6 @@ from viscorough.basics.argument_names import argument, spelled_as_options
 
 
 def test_a_value_is_named_if_there_is_one():
-    assert [argument("lateral_unit"), argument("detrend", "plane")] == ["lateral_unit", "detrend='plane'"]
+    assert [argument("until_force"), argument("detrend", "plane")] == ["until_force", "detrend='plane'"]
     with spelled_as_options():
-        assert [argument("lateral_unit"), argument("detrend", "plane")] == ["--lateral-unit", "--detrend plane"]
+        assert [argument("until_force"), argument("detrend", "plane")] == ["--until-force", "--detrend plane"]

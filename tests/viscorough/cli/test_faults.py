@@ -23,7 +23,7 @@ from support.faults import contents, no_privileges
 from viscorough.cli import files
 from viscorough.io import netcdf
 
-INDENT = "indent heights.npy --spacing 1 -o out.nc"
+INDENT = "indent heights.npy --spacing 1 --unit 1 -o out.nc"
 KINETICS = "kinetics curve.nc --force 1 --viscosity 1 -o out.nc"
 
 
@@ -75,7 +75,7 @@ def test_complete_output_is_success_with_a_closed_output_stream(redirection):
 
 def test_names_outside_the_encoding_of_standard_output_are_printed(here):
     shutil.copy("heights.npy", "ψ.npy")
-    code, error, output = shell("viscorough indent ψ.npy --spacing 1 -o ω.nc", PYTHONIOENCODING="latin-1")
+    code, error, output = shell("viscorough indent ψ.npy --spacing 1 --unit 1 -o ω.nc", PYTHONIOENCODING="latin-1")
     assert (code, error) == (0, "")
     assert output.startswith("\\u03c9.nc: ")
     assert netcdf.read("ω.nc").attributes["heights"] == "ψ.npy"
@@ -85,7 +85,7 @@ def test_names_of_files_that_are_not_valid_text_are_printed(here):
     name = os.fsdecode(b"caf\xe9")
     shutil.copy("heights.npy", f"{name}.npy")
     shutil.copy("curve.nc", f"{name}.nc")
-    assert run(f"indent '{name}.npy' --spacing 1 -o new.nc") == 0
+    assert run(f"indent '{name}.npy' --spacing 1 --unit 1 -o new.nc") == 0
     assert netcdf.read("new.nc").attributes["heights"] == r"caf\udce9.npy"
     code, error, output = shell(f"viscorough {KINETICS.replace('curve', name)}")
     assert (code, output, len(error.splitlines())) == (2, "", 1)
@@ -149,7 +149,7 @@ def test_file_that_cannot_be_opened_in_time_is_one_line(capsys, monkeypatch):
     codes = []
     monkeypatch.setattr(os, "_exit", codes.append)
     monkeypatch.setattr(files, "LONGEST", 0.05)
-    monkeypatch.setattr(netcdf, "opened", lambda path, checked: contextlib.nullcontext(time.sleep(0.5)))
+    monkeypatch.setattr(netcdf, "opened", lambda path, content, checked: contextlib.nullcontext(time.sleep(0.5)))
     with click.Context(click.Command("kinetics"), info_name="viscorough kinetics"):
         files.check_opens("a.nc")
     assert codes == [2]

@@ -1,11 +1,9 @@
 """Loading curves with the error of the grid on the command line."""
 
-import pandas as pd
 import pytest
 
 import viscorough
 from support.command_line import run, values
-from support.tables import read_table
 from viscorough import indent, load_curve, read_heights, self_affine_disc
 from viscorough.io import netcdf
 
@@ -42,19 +40,8 @@ def test_kinetics_states_the_grid_error_of_the_force_at_the_largest_depth(disc, 
     assert run("indent disc.nc --grid-error -o curve.nc") == 0
     curve = load_curve("curve.nc")
     level = curve.depth.size // 2
-    (here / "depth.csv").write_text(f"t,u [nm]\n0,0\n1,{1000 * curve.depth[level]:.15g}\n2,0\n")
+    (here / "depth.csv").write_text(f"time (s),depth (nm)\n0,0\n1,{1000 * curve.depth[level]:.15g}\n2,0\n")
     assert run("kinetics curve.nc --depth-history depth.csv --viscosity 1e4 -o motion.nc") == 0
     expected = curve.force_grid_error[level]
     assert f"grid error of the force about {100 * expected:.2g} %" in capsys.readouterr().out
     assert netcdf.read("motion.nc").attributes["force_grid_error"] == pytest.approx(expected)
-
-
-def test_table_at_given_loads_is_that_of_the_command_contact(disc):
-    viscorough.save(self_affine_disc(0.9, 65, rms=0.02, length_unit="um", seed=2), "other.nc")
-    assert run("indent disc.nc other.nc --forces 0.005,0.01 --grid-error -o curves.csv") == 0
-    assert run("contact disc.nc other.nc --force 0.005,0.01 --grid-error -o contacts.csv") == 0
-    (curves, units), (contacts, same_units) = (read_table(name) for name in ("curves.csv", "contacts.csv"))
-    assert units == same_units
-    assert len(curves) == 4
-    assert (curves["grid_error"] > 0).all()
-    pd.testing.assert_frame_equal(curves.drop(columns="digest"), contacts.drop(columns="digest"))

@@ -11,7 +11,7 @@ from viscorough.cli import messages
 from viscorough.io import netcdf
 
 HEIGHTS = self_affine_disc(0.7, 13, rms=0.02, diameter=13.0, seed=3).heights
-MARCH = "march heights.npy --spacing 1 -o march.nc"
+MARCH = "march heights.npy --spacing 1 --unit 1 -o march.nc"
 MEDIUM = f"{MARCH} --medium medium.yaml"
 
 
@@ -38,7 +38,7 @@ PULSE = "--medium medium.yaml --force-history pulse.csv"
 def test_marching_agrees_with_kinetics(motion, method, tolerance):
     """The contact recedes under the pulse."""
     assert run(f"{MARCH} --method {method} {motion}") == 0
-    assert run("indent heights.npy --spacing 1 --tolerance 1e-9 --until-fraction 1 -o curve.nc") == 0
+    assert run("indent heights.npy --spacing 1 --unit 1 --tolerance 1e-9 --until-fraction 1 -o curve.nc") == 0
     assert run(f"kinetics curve.nc {motion} -o kin.nc") == 0
     marched, expected = values("march.nc"), values("kin.nc")
     last = slice(-expected["time"].size, None)

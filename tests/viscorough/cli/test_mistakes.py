@@ -14,8 +14,8 @@ from support.curves import random_curve
 from viscorough import Indenter
 from viscorough.io.netcdf import Content, Variable, write
 
-INDENT, CONTACT = (f"{command} heights.npy --spacing 1 -o out.nc" for command in ("indent", "contact"))
-CONTACT_UM, MARCH = CONTACT.replace("heights.npy", "um.nc"), f"{INDENT.replace('indent', 'march')} --method"
+INDENT, CONTACT = (f"{command} heights.npy --spacing 1 --unit 1 -o out.nc" for command in ("indent", "contact"))
+CONTACT_UM, MARCH = "contact um.nc -o out.nc", f"{INDENT.replace('indent', 'march')} --method"
 KINETICS = "kinetics curve.nc -o out.nc"
 ESTIMATE = "estimate --hurst 0.8 --diameter 0.01 --times 1"
 GENERATE = "generate --hurst 0.7 --rms 1 --diameter 34 --seed 5 -o made.nc"
@@ -29,19 +29,23 @@ OF_PIPES += [f"{KINETICS} --viscosity 1 --force-history pipe{suffix}" for suffix
 OF_PIPES += [f"{KINETICS} --force 1 --medium pipe.yaml"]
 KIND = "unknown kind of file; allowed:"
 RESULTS = ".nc (NetCDF), .csv (table)"
-WRITERS = ["indent heights.npy --spacing 1", "contact heights.npy --spacing 1 --depth 1", "reduce line.npy --spacing 1"]
+WRITERS = [
+    "indent heights.npy --spacing 1 --unit 1",
+    "contact heights.npy --spacing 1 --unit 1 --depth 1",
+    "reduce line.npy --spacing 1 --unit 1",
+]
 WRITERS += ["kinetics curve.nc --force 1 --viscosity 1", f"{ESTIMATE} --rms 1 --force 1 --viscosity 1"]
-WRITERS += ["march heights.npy --spacing 1 --method events --times 1"]
+WRITERS += ["march heights.npy --spacing 1 --unit 1 --method events --times 1"]
 MAP = GENERATE.removesuffix(" -o made.nc") + " --elements 5"
 MISTAKES = [
-    ("indent heights.npy --spacing 1", "--output"),
+    ("indent heights.npy --spacing 1 --unit 1", "--output"),
     (f"{INDENT} --tolerance 0", "'--tolerance': 0.0 is not in the range 0<x<=0.1"),
     (f"{INDENT} --until-fraction nan", "'--until-fraction': 'nan' is not a finite number"),
     *[(f"{INDENT} --depths {depths}", text) for depths, text in (("1,,2", QUANTITY), ("2,1", INCREASING))],
     (f"{INDENT} --tolerance 1e-13", "indent: --tolerance must be between 1e-12 and 0.1"),
     (f"{INDENT} --crop 0:5,0:10", "--crop to rows 0:10; within 0:9 is allowed"),
     ("indent um.nc -o um.nc", "replace the heights"),
-    ("indent heights.npy --spacing 1 -o curve.nc/out.nc", "curve.nc/out.nc: there is no folder curve.nc"),
+    ("indent heights.npy --spacing 1 --unit 1 -o curve.nc/out.nc", "curve.nc/out.nc: there is no folder curve.nc"),
     *[(f"{INDENT} --forces 1 {other} 1", EXCLUDE) for other in ("--depths", "--until-fraction", "--until-force")],
     (f"{INDENT} --crop 0:2,0:9 --grid-error", "every n-th point, n = 2, of a map of 9 x 2 points"),
     (f"{INDENT} --until-force '1 N'", "a force needs --shear-modulus or --young"),
@@ -49,7 +53,27 @@ MISTAKES = [
     (f"{CONTACT} --force 1 --depth 1", "one of --force and --depth is needed"),
     *[(f"{CONTACT} --force {force}", QUANTITY) for force in ("0", "nan", "much", "1,")],
     (f"{CONTACT_UM} --force '2 mN,1 uN' --young 1", INCREASING),
-    (f"{CONTACT_UM} --force '1 mN,2' --young 1", "all or none of them may have one"),
+    (f"{CONTACT_UM} --force '1 mN,2' --young 1", "some numbers have a unit; write '1 mN,2 mN'"),
+    (f"{CONTACT_UM} --force '1,5 mN' --young 1", "write '1 mN,5 mN', or '1.5 mN' for one number"),
+    (f"{CONTACT_UM} --force 1 --young '1,5 MPa'", "'1,5 MPa' has a comma in its number; write '1.5 MPa'"),
+    (f"{CONTACT_UM} --force 1 --tolerance 0,01", "'0,01' has a comma in its number; write '0.01'"),
+    (f"{CONTACT_UM} --force 1 mN --young 2 MPa", '--force 1 mN: the shell splits this value; write --force "1 mN"'),
+    (
+        f"{KINETICS} --force 1 --viscosity 1e6 Pa·s",
+        "--viscosity 1e6 Pa·s: the shell splits this value; write --viscosity",
+    ),
+    ("plot --spacing 2 um heights.npy -o out.png", "--spacing 2 um: the shell splits this value"),
+    *[
+        (
+            f"plot heights.npy -o out.png --unit um --spacing '{text}'",
+            f"write '{one}' for one distance, or '{two}' for two",
+        )
+        for text, one, two in (
+            ("1,5", "1.5", "1 um,5 um"),
+            ("1,5 um", "1.5 um", "1 um,5 um"),
+            ("0,5nm", "0.5nm", "0 nm,5 nm"),
+        )
+    ],
     (f"{CONTACT_UM} --force '1 mN'", "a force needs --shear-modulus or --young"),
     (f"{CONTACT_UM} --force '1 Pa' --young 1", QUANTITY),
     (f"{CONTACT} --force '1 mN' --shear-modulus 1", NO_UNIT),
@@ -104,23 +128,25 @@ MISTAKES = [
     (f"{MARCH} events --medium medium.yaml --times 1 --viscosity 2", "--medium replaces --viscosity"),
     (f"{MARCH} events --force-history none.csv --force 1", "--force-history replaces --force"),
     (f"{MARCH} implicit --force-history force.csv -o link.csv", "would replace the force history"),
-    ("reduce line.npy -o out.nc", "line.npy: the distance between neighbouring points is not stated"),
+    ("reduce line.npy -o out.nc", "line.npy: the file states no unit of length; --unit, as --unit um, is needed, and"),
     *[
         (f"{MARCH} {method} --force 1e300 --viscosity 1e-300 --times 1", "depths or forces overflow")
         for method in ("events", "implicit")
     ],
-    ("reduce text.npy --spacing 1 -o out.nc", "text.npy: indenter heights: must be real numbers"),
-    ("reduce line.npy --spacing 1 --realizations 2 -o out.nc", "--realizations and --seed are for maps"),
-    ("reduce line.npy --spacing 1 --flip -o out.nc", "--channel and preparation are for maps"),
+    ("reduce text.npy --spacing 1 --unit 1 -o out.nc", "text.npy: indenter heights: must be real numbers"),
+    ("reduce line.npy --spacing 1 --unit 1 --realizations 2 -o out.nc", "--realizations and --seed are for maps"),
+    ("reduce line.npy --spacing 1 --unit 1 --flip -o out.nc", "--channel and preparation are for maps"),
     ("reduce map.nc -o map.nc", "would replace the heights"),
-    ("reduce heights.npy --spacing 1 --realizations 2 -o a.csv", "several curves are no table"),
-    ("plot heights.npy -o out.png", "points is not stated, nor a unit; --spacing is needed, and --unit for forces"),
+    ("reduce heights.npy --spacing 1 --unit 1 --realizations 2 -o a.csv", "several curves are no table"),
+    (INDENT.replace("--unit 1", ""), "states no unit of length; --unit, as --unit um, is needed, or --unit 1 for"),
     ("plot heights.npy --unit um -o out.png", "points is not stated; --spacing is needed\n"),
-    ("plot heights.npy --lateral-unit mm -o out.png", "heights are in no stated unit; --unit and --spacing are needed"),
-    ("plot other.nc -o out.png", "other.nc: no surface, fields of a contact, loading curve or motion in it"),
+    ("plot other.nc -o out.png", "other.nc: no heights, contact, curve or motion in it"),
     ("plot curve.nc -o link.png", "would replace the results"),
-    *[(f"plot heights.npy -o out.png --spacing '{text}'", "--spacing") for text in ("", "1,2,3", "1 V", "1 um")],
-    ("plot heights.npy -o out.png --spacing 1,-1", "spacing: must be positive"),
+    *[
+        (f"plot heights.npy -o out.png --unit 1 --spacing '{text}'", "--spacing")
+        for text in ("", "1,2,3", "1 V", "1 um")
+    ],
+    ("plot heights.npy -o out.png --unit 1 --spacing 1,-1", "spacing: must be positive"),
     ("plot heights.npy -o out.png --spacing 1 --unit V", "unit 'V': not a unit"),
     *[(f"{INDENT} --nodata '{value}'", f"--nodata {value}") for value in ("a", "1,")],
     *[(f"{INDENT} --crop '{crop}'", f"--crop {crop}") for crop in ("1:2", "1:2,3:4,5:6", "-1:2,0:3")],
@@ -146,8 +172,8 @@ def test_mistakes_are_one_line(here, complaint, line, what):
     write(Content({"a": Variable(("b",), np.arange(3.0), {"long_name": "a", "units": "1"})}, {}), "other.nc")
     (here / "medium.yaml").write_text("{kind: newtonian, viscosity: 30}")
     (here / "table.csv").write_text("0,0\n1e-6,1e-12\n")
-    (here / "deep.csv").write_text("0,0\n1,1e6\n2,2e6\n3,3e6\n4,4e6\n")
-    (here / "force.csv").write_text("0,0\n1,0.2\n2,0.4\n")
+    (here / "deep.csv").write_text("time,depth\n0,0\n1,1e6\n2,2e6\n3,3e6\n4,4e6\n")
+    (here / "force.csv").write_text("time,force\n0,0\n1,0.2\n2,0.4\n")
     (here / "link.csv").symlink_to("force.csv")
     (here / "link.nc").symlink_to("medium.yaml")
     (here / "link.png").symlink_to("curve.nc")

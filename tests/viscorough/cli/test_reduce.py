@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import viscorough
 from support.command_line import run
 from viscorough import Indenter, load_curve, mdr, self_affine_disc, self_affine_line
 from viscorough.io import netcdf
@@ -28,23 +29,18 @@ def test_reduce_reads_a_line_from_a_file(capsys):
     assert curve.contact_fraction[-2] < 0.5 <= curve.contact_fraction[-1]
 
 
-@pytest.mark.parametrize("delimiter", [" ", ";"])
-def test_reduce_reads_a_profile_from_a_text(delimiter):
-    np.savetxt("line.txt", np.transpose([0.25 * np.arange(512), LINE.heights]), delimiter=delimiter)
-    assert run("reduce line.txt --unit um -o curve.nc") == 0
-    curve = load_curve("curve.nc")
-    assert curve.length_unit == "um"
-    np.testing.assert_allclose(curve.force, mdr.reduce(LINE).force, rtol=1e-6)
-
-
-def test_text_with_two_spacings_is_a_map():
-    np.savetxt("map.txt", np.random.default_rng(1).normal(size=(2, 9)))
-    assert run("reduce map.txt --spacing 1,1 --realizations 3 -o curves.nc") == 0
-    assert len(unstack_curves(netcdf.read("curves.nc"))) == 3
+def test_reduce_warns_of_a_measured_profile(capsys):
+    np.savetxt("line.txt", LINE.heights)
+    assert run("reduce line.txt --spacing 0.25 --unit um -o curve.nc") == 0
+    assert "line.txt: a line cut from a measured surface is stiffer than the surface" in capsys.readouterr().err
+    np.testing.assert_allclose(load_curve("curve.nc").force, mdr.reduce(LINE).force, rtol=1e-12)
+    viscorough.save(LINE, "line.nc")
+    assert run("reduce line.nc -o curve.nc") == 0
+    assert capsys.readouterr().err == ""
 
 
 def test_map_gives_many_lines_and_a_warning(capsys):
-    assert run("reduce map.npy --spacing 1 --realizations 3 --seed 7 -o curves.nc") == 0
+    assert run("reduce map.npy --spacing 1 --unit 1 --realizations 3 --seed 7 -o curves.nc") == 0
     said, warning = capsys.readouterr()
     assert "3 curves, the first with " in said
     content = netcdf.read("curves.nc")
@@ -55,5 +51,5 @@ def test_map_gives_many_lines_and_a_warning(capsys):
     for index, curve in enumerate(curves):
         expected = mdr.reduce(mdr.line_of_map(Indenter(DISC.heights, 1.0), [7, index]))
         np.testing.assert_array_equal(curve.depth, expected.depth)
-    assert run("reduce map.npy --spacing 1 --seed 7 -o one.nc") == 0
+    assert run("reduce map.npy --spacing 1 --unit 1 --seed 7 -o one.nc") == 0
     assert run("kinetics one.nc --force 1 --viscosity 1 -o motion.nc") == 0

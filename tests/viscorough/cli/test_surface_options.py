@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-import tifffile
+import xarray as xr
 
 from support.command_line import run
 from viscorough import Indenter, indent, load_curve, prepare
@@ -38,27 +38,19 @@ def test_warning_about_a_surface_names_its_remedy(capsys):
     assert "--detrend plane removes it" in attributes["warnings"]
 
 
-def test_points_with_columns_in_two_units_are_converted(capsys):
-    x, y = np.broadcast_arrays(X, Y)
-    np.savetxt("points.xyz", np.transpose([1e-3 * x.ravel(), 1e-3 * y.ravel(), ROUGH.ravel()]))
-    curve, attributes = curve_of(capsys, f"points.xyz --unit um --lateral-unit mm {DEPTHS}")
-    expected = indent(Indenter(ROUGH, DX, DY, length_unit="um"), depths=[0.05, 0.2])
-    np.testing.assert_allclose([curve.force, curve.stiffness], [expected.force, expected.stiffness], rtol=1e-9)
-    assert (attributes["spacing"], attributes["row_spacing"], attributes["length_unit"]) == (DX, DY, "um")
-
-
 def test_channel_and_preparation_are_passed_on_and_recorded(capsys):
     marked = -ROUGH - 3 * X + 2 * Y
     marked[0, :3], marked[8, 8] = -9999, np.nan
-    tifffile.imwrite("marked.tif", np.stack([0 * ROUGH, marked]), photometric="minisblack")
+    variables = {name: (("y", "x"), values, {"units": "um"}) for name, values in (("a", 0 * ROUGH), ("b", marked))}
+    xr.Dataset(variables).to_netcdf("marked.nc")
     preparation = "--nodata -9999 --crop 0:15,0:16 --detrend plane --fill harmonic --flip"
-    curve, attributes = curve_of(capsys, f"marked.tif {SPACING} {DEPTHS} --channel 1 {preparation}")
+    curve, attributes = curve_of(capsys, f"marked.nc {SPACING} {DEPTHS} --channel b {preparation}")
     surface = Indenter(marked, DX, DY, length_unit="um")
     crop = (0, 15), (0, 16)
     surface = prepare(surface, nodata=-9999, crop=crop, detrend="plane", fill="harmonic", flip=True)
     expected = indent(surface, depths=[0.05, 0.2])
     np.testing.assert_allclose([curve.force, curve.stiffness], [expected.force, expected.stiffness], rtol=1e-9)
     assert curve.elements == 15 * 16 - 3
-    expected = {"spacing": DX, "row_spacing": DY, "length_unit": "um", "heights": "marked.tif", "channel": "1"}
+    expected = {"spacing": DX, "row_spacing": DY, "length_unit": "um", "heights": "marked.nc", "channel": "b"}
     assert {name: attributes[name] for name in expected} == expected
     assert set(attributes["preparation"].split()) == set(preparation.split())

@@ -13,6 +13,7 @@ from support.contract import refused
 from support.faults import namespace
 from viscorough.io.atomic import atomic_write, check_output, reading
 from viscorough.io.heights import read_heights
+from viscorough.io.saving import load_curve
 
 
 def write(path, text, error=None):
@@ -148,8 +149,9 @@ def test_only_regular_files_are_readable(tmp_path):
 )
 def test_messages_of_libraries_are_translated(tmp_path, name, content, what):
     (tmp_path / name).write_bytes(content)
+    read = load_curve if name == "a.nc" else read_heights
     with refused(what):
-        read_heights(tmp_path / name, 1.0)
+        read(tmp_path / name, *([] if name == "a.nc" else [1.0]))
 
 
 def test_long_messages_keep_their_end():

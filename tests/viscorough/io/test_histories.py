@@ -1,4 +1,4 @@
-"""Force histories read from files: headers, units, and refusals."""
+"""Histories are read from two named columns; every file in which the columns are not certain is refused."""
 
 import numpy as np
 import pytest
@@ -11,160 +11,129 @@ from viscorough import AccuracyWarning, read_load
 def history(tmp_path):
     """Read times and forces of a history from a text."""
 
-    def read(text, length_unit="1"):
-        (tmp_path / "force.csv").write_text(text, encoding="utf-8")
-        load = read_load(tmp_path / "force.csv", length_unit=length_unit)
-        return load.time, load.values
+    def read(text, length_unit="um", columns=None, encoding="utf-8"):
+        (tmp_path / "force.csv").write_text(text, encoding=encoding)
+        load = read_load(tmp_path / "force.csv", length_unit=length_unit, columns=columns)
+        return [load.time.tolist(), load.values.tolist()]
 
     return read
 
 
-@pytest.mark.parametrize("header", ["", "t [s],F [N]\n", "# a comment\n", "\n\nTime;seconds,Force\n", "\ufefft,F\n"])
-def test_header_is_a_row_without_numbers(history, header):
-    np.testing.assert_array_equal(history(f"{header}0,1e0\n\n1,2\n", "m"), [[0, 1], [1, 2]])
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "time (s),force (N)\n0,1\n2,3\n",
+        "force (mN),time (ms)\n1e3,0\n3e3,2000\n",
+        "Time(s) ; Force (kN)\n0;0.001\n2;.003\n",
+        '"time (s)"\t"force (N)"\n"0"\t"1"\n"2"\t"3"\n',
+        "# Prüfling A, 5 N\n\ntime (min),force (µN)\n0,1e6\n0.03333333333333333,3e6\n# end\n",
+        "n,depth (um),force (N),time (s),note\n0,7,1,0,first\n1,,3,2,\n",
+        "T°C,force rate (N/s),time (s),force (N)\n20,9,0,1\n21,9,2,3\n",
+    ],
+)
+def test_named_columns_are_read_in_any_order_and_unit(history, text, encoding):
+    np.testing.assert_allclose(history(text, encoding=encoding), [[0, 2], [1, 3]], rtol=1e-14)
 
 
-@pytest.mark.parametrize("first", ["0,nan", "inf,1", "-Infinity,x", "0,one", "zero,1", "-.5s,-1N", "+1 s,F"])
-def test_first_row_with_a_number_is_no_header(history, first):
-    """As a header it would be dropped, and with it the start of the history."""
-    with refused(r"is no row of numbers|does not name the columns|finite"):
-        history(f"{first}\n1,2\n2,3\n")
+@pytest.mark.parametrize(("unit", "expected"), [("um", 0.5), ("nm", 500.0), ("m", 5e-7)])
+def test_depths_are_in_the_unit_of_the_indenter(tmp_path, unit, expected):
+    (tmp_path / "a.csv").write_text("time (s),depth (nm)\n0,0\n1,500\n")
+    assert read_load(tmp_path / "a.csv", "depth", unit).depth.tolist() == [0, pytest.approx(expected, rel=1e-14)]
+
+
+def test_without_a_unit_of_length_headings_have_no_units(history):
+    assert history("force,time\n1,0\n3,2\n", "1") == [[0, 2], [1, 3]]
+    with refused("heading 'time \\(s\\)': the unit of length of the indenter is not known, so that no heading may"):
+        history("time (s),force (N)\n0,1\n2,3\n", "1")
+    with refused("heading 'time': the unit of length of the indenter is um, so that each has one"):
+        history("time,force\n0,1\n2,3\n", "um")
 
 
 @pytest.mark.parametrize(
-    "heading",
+    ("heading", "what"),
     [
-        *["t [ms],F [mN]", "t / ms , F / mN", "Zeit in ms,Kraft in mN", "t_ms,F_mN", '"t [ms]","F [mN]"', "ms,mN"],
-        *["t [1e-3 s],F [1e-3 N]", "# of the second run\n# t [ms], F [mN]", "\ufefft (ms),Load in z (mN)"],
-        "# 2013/11/12, run (5)\ntime(milliseconds),force(mN)",
+        *[(text, "no column is named time") for text in ("T°C,elapsed [s],F [N]", "t (s),F (N)", "time [s],force [N]")],
+        *[(text, "no column is named time") for text in ("0,1", "Zeit (s),Kraft (N)", "time s,force (N)", "a,b")],
+        *[
+            (text, "no column is named force")
+            for text in ("time (s),depth (nm)", "time (s),force/N", "time (s),load (N)")
+        ],
+        ("time (s),time (ms),force (N)", "more than one column is named time"),
+        ("time (s),force (N),Force (mN)", "more than one column is named force"),
+        ("time (nm),force (N)", "unit 'nm': cannot be converted to s"),
+        ("time (s),force (V)", "unit 'V': cannot be converted to N"),
+        ("time (s),force (foo)", "unit 'foo': a unit such as"),
+        ("time (s);force (N),note", "';' and ',' in one row; one delimiter"),
+        ("time (s) force (N)", "heading .time.: the unit of length of the indenter is um, so that each has one"),
     ],
 )
-def test_units_in_a_heading_are_converted(history, heading):
-    times, force = history(f"{heading}\n0,1\n1,2\n3,2.5\n", "um")
-    np.testing.assert_allclose([times, force], [[0, 1e-3, 3e-3], [1e-3, 2e-3, 2.5e-3]], rtol=1e-15)
-    with refused("states a unit, but the unit of length is not known"):
-        history(f"{heading}\n0,1\n1,2\n")
+def test_other_headings_are_refused(history, heading, what):
+    cells = heading.count(",") + 1
+    with refused(rf"force\.csv: .*{what}"):
+        history("\n".join([heading, *(",".join(map(str, range(row, row + cells))) for row in range(3))]))
 
 
 @pytest.mark.parametrize(
-    ("heading", "factors"),
+    ("row", "what"),
     [
-        ("t [min],F", (60, 1)),
-        ("t,F (kN)", (1, 1e3)),
-        ("t [µs],F [μN]", (1e-6, 1e-6)),
-        *[(plain, (1, 1)) for plain in ("t_s,F_N", "time t,contact force F", "# a,b\n# c\nt,F", "# 5 N, 2 s")],
+        ("1", "line 3 has 1 cells, line 1 has 2; rows of one length are needed"),
+        ("1,2,3", "line 3 has 3 cells, line 1 has 2"),
+        ("1,", "line 3 has an empty cell"),
+        ("1,1_0", "line 3 has '1_0', which is no number"),
+        ("1,one", "line 3 has 'one', which is no number"),
+        ("1,inf", "line 3 has 'inf', which is no number"),
+        ("00:01,2", "line 3 has '00:01', which is no number"),
+        ('1,"2,5"', "line 3 has '2,5', which is no number; one delimiter, and points as decimal marks"),
+        ("1,nan", "nan|finite"),
+        ("time (s),force (N)", r"line 3 has 'time \(s\)', which is no number"),
     ],
 )
-def test_each_column_has_its_own_unit_or_none(history, heading, factors):
-    times, force = history(f"{heading}\n0,1\n1,2\n", "m")
-    np.testing.assert_allclose([times[1], force[0]], factors, rtol=1e-3)
+def test_faulty_rows_are_refused(history, row, what):
+    with refused(rf"force\.csv: .*{what}"):
+        history(f"time (s),force (N)\n0,1\n{row}\n2,3\n")
 
 
-TABLES = [
-    "F,t\n1,0\n3,2\n",
-    "force;time\n1,0;0,0\n3,0;2,0\n",
-    "Time\tForce\n0\t1\n2\t3\n",
-    "0,0;1,0\n2,0;3,0\n",
-    "0,0 1,0\n2,0 3,0\n",
-    '"0","1"\n"2","3"\n',
-    "0\t1\n2\t3\n",
-    "n,Depth,Force,Time\n0,7,1,0\n1,8,3,2\n",
-    "Zeit;Kraft;Kommentar\n0;1;Anfang\n2;3;\n",
-    "t (s)  Load On Sample (N)  Piezo (nm)\n0 1 5\n2 3 6\n",
-    "# index,time,force rate (N/s),force\n0,0,9,1\n1,2,9,3\n",
-    "Sample: 5\nTime,Load\nsec,mN\n0,1000\n2,3000\n# the end\n",
-    "Zeit seit Start,Prüfkraft,Weg\n[s],[mN],[µm]\n0,1000,4\n2,3000,5\n",
-    "d_nm,F_uN,t_ms\n4,1e6,0\n5,3e6,2000\n",
-    '"Test Time, s","Indent Load, mN"\n0,1000\n2,3000\n',
-    "P (N),h (nm),t (s)\n1,5,0\n3,6,2\n",
-    "s,N\n0,1\n2,3\n",
-]
-
-
-@pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "cp1252"])
-@pytest.mark.parametrize("text", TABLES)
-def test_heading_decides_which_columns_are_read(tmp_path, text, encoding):
-    (tmp_path / "record.txt").write_text(text, encoding=encoding)
-    load = read_load(tmp_path / "record.txt", length_unit="um")
-    np.testing.assert_allclose([load.time, load.force], [[0, 2], [1, 3]])
-
-
-OF_ANOTHER_QUANTITY = [
-    "time,depth\n0,0\n1,1e-9\n",
-    "Time [s],Displacement [nm]\n0,0\n1,1e-9\n",
-    "t,F [nm]\n0,0\n1,1\n",
-    "t,force error\n0,0\n1,1\n",
-    "t,Force (V)\n0,0\n1,1\n",
-    "t,Force rate (N/s)\n0,0\n1,1\n",
-    "Displacement,Force\n0,0\n1,1\n",
-    "t,signal\n0,0\n1,1\n",
-    "t,Force,Load\n0,0,1\n1,1,2\n",
-    "t,t,F\n0,0,1\n1,1,2\n",
-]
-
-
-@pytest.mark.parametrize("text", OF_ANOTHER_QUANTITY)
-def test_heading_of_another_quantity_is_refused(history, text):
-    with refused(r"force\.csv: .*columns states it, as in (force|time)=NAME or"):
-        history(text, "um")
-
-
-@pytest.mark.parametrize("heading", ["Height (measured & smoothed) [m]", "Z (nm)", "Piezo_um", "tip position/m"])
-def test_other_lengths_are_no_depths(tmp_path, heading):
-    """The piezo of an AFM moves by the depth and the deflection of the cantilever."""
-    (tmp_path / "a.csv").write_text(f"t [s];{heading};F [N]\n0;0;0\n1;1;2\n")
-    with refused("the heading names no depth"):
-        read_load(tmp_path / "a.csv", "depth", "um")
-    assert read_load(tmp_path / "a.csv", "force", "um").force.tolist() == [0, 2]
-
-
-def test_columns_are_chosen_by_name_or_number(tmp_path):
-    (tmp_path / "a.csv").write_text("5,0,1\n6,2,3\n")
-    (tmp_path / "b.csv").write_text("Piezo [nm],Clock [ms],Force (retract) [mN],Force [N]\n5,0,1,9\n6,2,3,9\n")
-    np.save(tmp_path / "c.npy", [[5, 0, 1], [6, 2, 3]])
-    for name in ("a.csv", "c.npy"):
-        load = read_load(tmp_path / name, "force", "m", {"time": 2, "force": "3 [mN]"})
-        np.testing.assert_allclose([load.time, load.force], [[0, 2], [1e-3, 3e-3]])
-    load = read_load(tmp_path / "b.csv", "force", "m", {"time": "clock", "force": "Force (retract) [mN]"})
-    np.testing.assert_allclose([load.time, load.force], [[0, 2e-3], [1e-3, 3e-3]])
+def test_columns_of_a_file_without_headings_are_chosen_by_number(history):
+    for text in ("5,0,1\n6,2,3\n", "# comment\n5 0 1\n6 2 3\n", "5\t0\t1\n6\t2\t3\n"):
+        assert history(text, columns={"time": 2, "force": 3}) == [[0, 2], [1, 3]]
     for columns, what in (
-        ({"time": 0, "force": 1}, "counted from 1"),
-        ({"time": 1, "force": 4}, "the file has 3 columns"),
-        ({"time": 1, "force": 1}, "one column for time and force"),
-        ({"time": 1, "force": "F"}, "no column has this name"),
-        ({"time": 1, "compression": 2}, "'compression'; allowed: time, force"),
+        ({"time": 0, "force": 1}, "columns time: must be a whole number of at least 1"),
+        ({"time": 1, "force": 4}, "columns 4: line 1 has 3 columns"),
+        ({"time": 1, "force": 1}, "time and force are in the same column"),
+        ({"time": 1, "force": "2"}, "columns force: must be a whole number"),
+        ({"time": 1}, "the numbers of the columns of time and force are needed"),
+        ({"time": 1, "compression": 2}, "the numbers of the columns of time and force are needed"),
     ):
         with refused(what):
-            read_load(tmp_path / "a.csv", "force", "m", columns)
-    (tmp_path / "d.csv").write_text("time,depth\n0,1\n2,3\n")
-    with refused("the heading names depth there"):
-        read_load(tmp_path / "d.csv", "force", "m", {"time": 1, "force": 2})
-    with refused("2 \\[s\\] contradicts the heading 'Clock \\[ms\\]'"):
-        read_load(tmp_path / "b.csv", "force", "m", {"time": "2 [s]", "force": 3})
+            history("5,0,1\n6,2,3\n", columns=columns)
+    with refused(
+        r"line 1 is a heading, with columns; name its columns time \(s\) and force \(N\), or remove the heading"
+    ):
+        history("T°C,elapsed [s],F [N]\n20,0,1\n21,2,3\n", columns={"time": 2, "force": 3})
+
+
+@pytest.mark.parametrize(
+    ("content", "what"),
+    [
+        (b"", "it has no rows"),
+        (b"time (s),force (N)\n", r"it has no rows; the columns time \(s\) and force \(N\) are needed"),
+        (b"\x93NUMPY\x01\x00", "it is no text"),
+    ],
+)
+def test_files_without_rows_are_refused(tmp_path, content, what):
+    (tmp_path / "a.csv").write_bytes(content)
+    with refused(what):
+        read_load(tmp_path / "a.csv")
+    with refused("missing.csv: not readable"):
+        read_load(tmp_path / "missing.csv")
 
 
 def test_small_negative_forces_are_noise_before_contact(tmp_path):
-    (tmp_path / "a.csv").write_text("t,F\n0,-1e-12\n1,0\n2,1e-9\n")
+    (tmp_path / "a.csv").write_text("time (s),force (N)\n0,-1e-12\n1,0\n2,1e-9\n")
     with pytest.warns(AccuracyWarning, match="1 forces below 0, down to -1e-12, count as noise and are set to 0"):
         load = read_load(tmp_path / "a.csv")
     assert load.force.tolist() == [0, 0, 1e-9]
-    (tmp_path / "a.csv").write_text("t,F\n0,-1e-10\n1,0\n2,1e-9\n")
+    (tmp_path / "a.csv").write_text("time (s),force (N)\n0,-1e-10\n1,0\n2,1e-9\n")
     with refused("sample 0 is -1e-10"):
         read_load(tmp_path / "a.csv")
-
-
-AMBIGUOUS = [
-    *[f"{heading}\n0,1\n1,2\n" for heading in ("F mN,t kg", "t [Sek],F", "t,F [kp]", "t [],F", "force", "t,F,u")],
-    *[f"{heading}\n0,1\n1,2\n" for heading in ("# time in ms", "# t [ms] F [mN]", "# t [ms],F [kp]", "t,", "-,-")],
-    *[f"{heading}\n0,1\n1,2\n" for heading in ("#DIV/0!,-1", "a,b", "# Units: ms, mN\nt,F", "t,F\n[Data]")],
-    *["0,1\n# in kN\n1,2\n", "#N/A,1\n1,2\n2,3\n", "0,1\n#NV,2\n2,3\n3,4\n", "0,0,1,5\n1,0,2,5\n"],
-    *["0,1\n1,\n2,3\n", "0,1\n1\n2,3\n", "0,1_0\n1,2_0\n", "", "time,force\n0,1\n", "t;F\n0;1,234.5\n1;2\n"],
-    *["0,1,2\n1,2,3\n", "t,F\n0,1\nt,F\n1,2\n", "t,F\n0,1\n1,nan\n", "t,F\n00:01,1\n00:02,2\n"],
-]
-
-
-@pytest.mark.parametrize("length_unit", ["m", "1"])
-@pytest.mark.parametrize("text", AMBIGUOUS)
-def test_ambiguous_tables_are_refused(history, text, length_unit):
-    with refused(r"force\.csv: .*(two columns, time and force|is needed|states it|the columns are not)"):
-        history(text, length_unit)

@@ -7,7 +7,11 @@ from support.command_line import run
 from support.tables import read_table
 from viscorough.contact.loading_path import indent
 from viscorough.surfaces.self_affine import self_affine_disc
-from viscorough_study.comparisons.measured import CONTACTS, measured_contacts, measured_motions
+from viscorough_study.comparisons.measured import measured_motions
+from viscorough_study.comparisons.measured_contacts import CONTACTS, measured_contacts, rows_with_grid_errors
+
+GRID_ERRORS = ["grid_error", "force_grid_error", "area_change"]
+OF_THE_STUDY = {"scan", "group", "file", "error", "warnings", *GRID_ERRORS}
 
 SCAN = {"name": "ground_a", "group": "ground", "file": "a.npy", "digest": "", "spacing": [10.0], "unit": "um"}
 SCAN |= {"preparation": {"flip": True}, "forces": [1e-4, 1e-5], "young_modulus": 2e6, "poisson_ratio": 0.3}
@@ -23,19 +27,13 @@ def test_table_is_that_of_the_command_line():
     table = measured_contacts([SCAN, SCAN | {"young_modulus": None}, SCAN | {"forces": []}])
     assert list(table) == list(CONTACTS)
     assert table["scan"].tolist() == ["ground_a", "ground_a"]
-    loads = "--force 1e-5,1e-4 --young 2e6 --poisson 0.3 --grid-error"
+    loads = "--force 1e-5,1e-4 --young 2e6 --poisson 0.3"
     assert run(f"contact a.npy --spacing 10 --unit um --flip {loads} -o a.csv") == 0
     expected, units = read_table("a.csv")
-    assert list(expected) == list(CONTACTS)[2:]
-    for name in set(units) - {"file", "error", "warnings", "digest"}:
+    assert list(expected) == [name for name in CONTACTS if name not in OF_THE_STUDY]
+    for name in units:
         assert table[name].tolist() == pytest.approx(expected[name].tolist(), rel=1e-12), name
         assert CONTACTS[name][1] == units[name]
-
-
-def test_digest_changes_with_file_and_settings():
-    digests = {measured_contacts([SCAN | change])["digest"][0] for change in ({}, {"forces": [1e-4]}, {"unit": "nm"})}
-    np.save("a.npy", 2 * np.load("a.npy"))
-    assert len(digests | {measured_contacts([SCAN])["digest"][0]}) == 4
 
 
 def test_motions_end_where_their_curve_ends():
@@ -55,3 +53,25 @@ def test_scan_that_fails_has_a_row_with_its_reason():
     assert "not readable (No such file" in table["error"][0]
     assert table["error"][1:].tolist() == ["", ""]
     assert np.isnan(table["depth"]).tolist() == [True, False, False]
+
+
+@pytest.mark.filterwarnings("default")
+def test_warnings_and_faults_become_texts_without_the_path(monkeypatch):
+    np.save("steep.npy", 40 * np.load("a.npy"))
+    (text,) = measured_contacts([SCAN | {"file": "steep.npy", "forces": [1e-5]}])["warnings"]
+    assert text.startswith("the rms slope is ")
+    monkeypatch.setattr("viscorough_study.comparisons.measured_contacts.contact_at", None)
+    (text,) = measured_contacts([SCAN])["error"]
+    assert text.startswith("TypeError: ")
+
+
+@pytest.mark.parametrize(("hurst", "seed"), [(0.5, 2), (0.8, 0), (0.8, 3)])
+def test_grid_error_of_a_single_load_is_that_of_the_whole_curve(hurst, seed):
+    """At a single force the curves of both grids can agree by chance, so that their difference says nothing."""
+    disc = self_affine_disc(hurst, 129, rms=0.02, seed=seed)
+    curve = indent(disc, until_fraction=0.3, estimate_grid_error=True)
+    for share in (0.1, 0.3, 0.6):
+        force = share * curve.force[-1]
+        (row,) = rows_with_grid_errors(disc, [force], 1.0)
+        expected = np.exp(np.interp(np.log(force), np.log(curve.force), np.log(curve.grid_error)))
+        assert 0.5 * expected < row["grid_error"] < 2 * expected

@@ -230,6 +230,18 @@ def scan_value(name):
     return lambda wildcards: MEASURED[wildcards.scan][name]
 
 
+def surfaces_origin(wildcards):
+    """Return the params that decide the surfaces of a batch, for the record of their curves.
+
+    The files of surfaces are temporary, so no other file states these params.
+    """
+    if wildcards.kind == "measured":
+        made_from = {name: MEASURED[wildcards.case][name] for name in ("spacing", "unit", "preparation", "digest")}
+        return made_from | {"source": digest("prepare_measured")}
+    ensembles = batch_ensembles(DISCS, wildcards.case, wildcards.batch)
+    return {"ensembles": ensembles, "seed": config["seed"], "source": digest("generate_discs")}
+
+
 def indentation_memory(wildcards):
     """Return the memory [MB] of a job that indents the surfaces of a batch."""
     case = CASES[wildcards.kind][wildcards.case]

@@ -21,7 +21,7 @@ rule indent_surfaces:
         mem_mb=indentation_memory,
     params:
         indentation=lambda wildcards: CASES[wildcards.kind][wildcards.case]["indentation"],
-        source=digest("indent_surfaces"),
+        source=lambda wildcards: [digest("indent_surfaces"), surfaces_origin(wildcards)],
     message:
         "Boundary elements, {wildcards.kind} {wildcards.case}, realizations {wildcards.batch}"
     script:

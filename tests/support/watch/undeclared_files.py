@@ -9,6 +9,8 @@ import os
 import sys
 from pathlib import Path
 
+# Files of atomic writing and of compiled functions.
+_CACHES = (".part", ".nbi", ".nbc")
 WRITTEN = "undeclared.txt"  # file in the working directory with a line for each undeclared file of each job
 
 
@@ -46,7 +48,12 @@ def write_undeclared(job, opened):
     libraries += [os.path.abspath(folder) for folder in sys.path if folder]
     with open(WRITTEN, "a", encoding="utf-8") as file:
         for path in sorted(opened - declared):
-            if path.endswith(".part") or not os.path.isfile(path) or path == os.path.abspath(WRITTEN):
+            if (
+                path.endswith(_CACHES)
+                or "fontlist" in path
+                or not os.path.isfile(path)
+                or path == os.path.abspath(WRITTEN)
+            ):
                 continue
             if any(path.startswith(f"{folder}/") for folder in libraries):
                 continue

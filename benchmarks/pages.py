@@ -19,6 +19,7 @@ from scipy.special import gamma as gamma_function
 from viscorough.reference import exponent_alpha, exponent_beta, zeta_elastic, zeta_viscous
 from viscorough_study.fits import fine_sentence
 from viscorough_study.fits.zeta_laws import LAST
+from viscorough_study.robustness.outcomes import wrong_without_warning
 from viscorough_study.run.paper_data import read_paper
 from viscorough_study.verdicts.answer import answer, short_answer
 from viscorough_study.verdicts.claims import HELD, counted_verdicts, findings, markdown, overall, verdict_text
@@ -292,7 +293,7 @@ def numbers():
         "quantity == 'velocity' and model == 'grid' and across == 257 and value == 1e-3"
     )
     on_grids = results("grid_dependence").query("quantity == 'κ at u/h = 1'").groupby("hurst")["factor"].max()
-    law = results("law_errors").query("across == 257 and x > 0.003")
+    law, failures = results("law_errors").query("across == 257 and x > 0.003"), results("failure_map")
     over_operator = [steps["whole"] for steps in benchmarks["over_operator"].values()]
     return {
         "default minutes": default_minutes(),
@@ -302,6 +303,7 @@ def numbers():
         "line area": span(value["line_area"]),
         "line gap": span(value["line_gap"], 2),
         "grid and stiffness": listed(on_grids[[0.1, 0.4, 0.6]]),
+        "stated failures": f"{wrong_without_warning(failures)[0]} of {len(failures)}",
         "law velocity": f"{100 * law['velocity_error'].abs().max():.0f}",
         "law interface": f"{100 * law['interface_error'].abs().max():.0f}",
         "law depth": f"{100 * law['depth_error'].abs().max():.0f}",

@@ -116,7 +116,6 @@ OTHER_SOLVERS = pd.read_csv(ROOT / "resources/published/other_solvers.csv").to_d
 FROM_TABLES = {  # arguments of the figures that are drawn from tables alone
     "conventions": (published("scaling"), SHOWN),
     "direct": (published("direct"),),
-    "failure_map": (published("failure_map"),),
     "failures": (published("failure_map"),),
     "fig4_exponent": (published("scaling"), SHOWN, (0.4, 1.0), FINE_GRIDS),
     "histories": (histories_table(),),

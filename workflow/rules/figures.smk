@@ -293,27 +293,6 @@ use rule plot_surfaces as plot_failures with:
         "Figure: where methods fail"
 
 
-use rule plot_surfaces as plot_failure_map with:
-    input:
-        table="results/tables/failure_map.csv",
-    output:
-        path=report(
-            "results/figures/failure_map.{format}",
-            caption="../report/figures/failure_map.rst",
-            category=category("7 Where methods fail"),
-            labels={"result": "every method in every stress-test case", "kind": "figure"},
-        ),
-    log:
-        "results/logs/plot_failure_map/{format}.log",
-    benchmark:
-        "results/benchmarks/plot_failure_map/{format}.tsv"
-    params:
-        figure="failure_map",
-        source=digest("plot", figure="failure_map"),
-    message:
-        "Figure: every method in every stress-test case"
-
-
 use rule plot_surfaces as plot_media with:
     input:
         table="results/tables/media.csv",
@@ -488,10 +467,9 @@ rule speed:
 
 
 rule stability:
-    """Where methods fail, and the failure map."""
+    """Where methods fail."""
     input:
         "results/figures/failures.png",
-        "results/figures/failure_map.png",
 
 
 rule fine_grids:

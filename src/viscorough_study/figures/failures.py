@@ -1,66 +1,56 @@
-"""Draw the shares of right and wrong results in the stress tests."""
+"""Draw the failure map: error and outcome of every method in every stress-test case."""
+
+from itertools import pairwise
+
+import numpy as np
+from matplotlib.colors import ListedColormap
 
 from viscorough_study.figures import style
+from viscorough_study.robustness.outcomes import wrong_without_warning
 
-# Outcomes in a bar from left to right, as {outcome: (label, verdicts of the failure map that it contains, color)}.
+# Outcomes, {verdict of the failure map: (label, color of a cell, color of its text)}.
 OUTCOMES = {
-    "right": ("right", ("holds", "model"), style.BLUE),
-    "refused": ("refused, with a reason", ("refused",), style.PALE),
-    "warned": ("wrong, with a warning", ("warned",), style.ORANGE),
-    "stated": ("wrong, a model beyond its documented range", ("stated",), "#f7dc9c"),
-    "silent": ("silently wrong: {}", ("unnoticed",), style.BLACK),
+    "holds": ("right, within the limit of the method", style.BLUE, "white"),
+    "model": ("model, within a factor of two", style.SKY_BLUE, style.BLACK),
+    "stated": ("wrong, a model outside its documented range", "#f7dc9c", style.BLACK),
+    "warned": ("wrong, with a warning", style.ORANGE, style.BLACK),
+    "refused": ("refused, with a reason", style.PALE, style.BLACK),
+    "unnoticed": ("silently wrong", style.BLACK, "white"),
 }
-# Names of methods, {name in the failure map: name in this figure}.
-METHODS = {
-    "path, dense": "boundary elements, dense",
-    "path, grid, double": "boundary elements, double",
-    "path, grid, single": "boundary elements, single",
-    "path, interpolated": "boundary elements, curve",
-    "events": "time: event by event",
-    "explicit steps": "time: explicit steps",
-    "media, correspondence": "media: from the curve",
-    "media, steps": "media: time steps",
-    "MDR": "MDR, to a factor of two",
-    "power law": "power law, to a factor of two",
-    "power law with Γ": "with Γ, to a factor of two",
-}
-BAR = 0.72  # height of a bar, in units of the distance between bars
-SHARE = "share of the cases"
 
 
 @style.figure
 def plot_failures(table):
-    """Draw shares of outcomes by method (a) and by kind of stress test (b).
+    """Draw a table of the error (number) and outcome (colour) of each method (columns) in each stress test (rows).
 
     table : table of robustness.failure_map
     """
-    figure, (by_method, by_group) = style.new_subplots(66, 1, 2)
-    silent = int((table["verdict"] == "unnoticed").sum())
-    by_method.set_title(f"(a) {silent} of {len(table)} results are silently wrong")
-    by_group.set_title("(b) The same by kind of case")
-    _draw_bars(by_method, table.assign(name=table["method"].replace(METHODS)))
-    _draw_bars(by_group, table.assign(name=table["group"]))
-    handles = [style.handle(label.format(silent), color=color, linewidth=7) for label, _, color in OUTCOMES.values()]
-    figure.legend(handles=handles, loc="outside upper center", ncols=3, handlelength=1.2)
+    methods, rows = list(table["method"].unique()), list(dict.fromkeys(zip(table["group"], table["case"], strict=True)))
+    figure, axes = style.new_subplots(4.4 * len(rows) + 42)
+    outcomes = np.zeros((len(rows), len(methods)))
+    names = list(OUTCOMES)
+    for cell in table.itertuples():
+        i, j = rows.index((cell.group, cell.case)), methods.index(cell.method)
+        outcomes[i, j] = names.index(cell.verdict)
+        axes.text(j, i, _cell_text(cell), ha="center", va="center", color=OUTCOMES[cell.verdict][2])
+    colors = ListedColormap([color for _, color, _ in OUTCOMES.values()])
+    axes.imshow(outcomes, cmap=colors, vmin=-0.5, vmax=len(names) - 0.5, aspect="auto")
+    axes.set_xticks(range(len(methods)), methods)
+    axes.set_yticks(range(len(rows)), [f"{group}: {case}" for group, case in rows])
+    axes.tick_params(which="both", length=0, top=False, labeltop=True, labelbottom=False, right=False)
+    for column in range(1, len(methods)):
+        axes.axvline(column - 0.5, color="white", linewidth=1)
+    for row, ((last, _), (group, _)) in enumerate(pairwise(rows), 1):
+        axes.axhline(row - 0.5, color="white", linewidth=0.5 if group == last else 2.5)
+    stated, silent = wrong_without_warning(table)
+    axes.set_title(f"{silent} of {len(table)} results are silently wrong; {stated} are models outside their range")
+    handles = [style.handle(label, color=color, linewidth=7) for label, color, _ in OUTCOMES.values()]
+    figure.legend(handles=handles, loc="outside lower center", ncols=3, handlelength=1.2)
     return figure
 
 
-def _draw_bars(axes, table):
-    """Draw a bar with the shares of all outcomes for every name, and write the number of silent failures at the bar.
-
-    table : table of the failure map with a further column `name`, the name of the bar to which a row belongs
-    """
-    names = list(dict.fromkeys(table["name"]))
-    for place, name in enumerate(names):
-        verdicts, left = table.loc[table["name"] == name, "verdict"], 0.0
-        for _, members, color in OUTCOMES.values():
-            share = float(verdicts.isin(members).mean())
-            axes.barh(place, share, BAR, left, color=color, linewidth=0)
-            left += share
-        silent = int(verdicts.isin(OUTCOMES["silent"][1]).sum())
-        axes.text(1.1, place, str(silent), va="center", ha="center")
-    axes.set_yticks(range(len(names)), names)
-    axes.text(1.1, -0.8, "silent", va="center", ha="center")
-    axes.set(xlim=(0, 1.2), ylim=(len(names) - 0.4, -1.2), xlabel=SHARE)
-    axes.set_xticks([0, 0.5, 1], ["0", "50 %", "100 %"])
-    axes.tick_params(which="both", length=0)
+def _cell_text(cell):
+    """Return the error with one digit, such as 4e-15, 0.3 or 300; nothing if the method refuses the case."""
+    if cell.verdict == "refused":
+        return ""
+    return f"{cell.error:.1g}" if cell.error < 1 else f"{float(f'{cell.error:.1g}'):.0f}"

@@ -31,9 +31,6 @@ def plot_speed(means, other_solvers):
     mean.set_title(f"(a) Mean of many surfaces, $H$ = {hurst:g}, $X$ = {X[0]:g} to {X[1]:g}")
     _draw_mean(mean, velocity[velocity["hurst"] == hurst], velocity[velocity["model"] == LAW])
     _draw_race(race, other_solvers)
-    for axes in (mean, race):
-        axes.spines[["top", "right"]].set_visible(False)
-        axes.tick_params(which="both", top=False, right=False)
     return figure
 
 
@@ -97,4 +94,3 @@ def _draw_race(axes, other_solvers):
     residual = f"residual $10^{{{np.log10(RACE_TOLERANCE):.0f}}}$ of the depth"
     axes.set_title(f"(b) Other solvers (published):\n{task}{residual}")
     axes.set(xscale="log", xlim=(1, 8 * max(ratios.values())), xlabel="time over that of viscorough")
-    axes.minorticks_off()

@@ -76,6 +76,7 @@ def failures(results):
     cases : number of stress tests
     unnoticed : number of results that are wrong without a warning
     warned : number of results that are wrong, but come with a warning
+    stated : number of results of models that are wrong outside their documented range, without a warning
     worst_model : largest finite error of an approximate model that warned or was used outside its documented range
     methods : {method: {verdict: number of stress tests}}
     """
@@ -84,7 +85,7 @@ def failures(results):
     return {
         # each method has one row per stress test
         "cases": results.count("failure_map", "method", table["method"].iloc[0]),
-        **{name: results.count("failure_map", "verdict", name) for name in ("unnoticed", "warned")},
+        **{name: results.count("failure_map", "verdict", name) for name in ("unnoticed", "warned", "stated")},
         "worst_model": results.extremes(outside[np.isfinite(outside["error"])], "failure_map", "error")[1],
         "methods": {name: Counter(rows["verdict"]) for name, rows in table.groupby("method", sort=False)},
     }

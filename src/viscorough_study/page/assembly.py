@@ -10,7 +10,7 @@ from viscorough_study.page.chart import chart
 from viscorough_study.page.discussion import QUANTITIES, discussion
 from viscorough_study.page.render import embedded_png, render
 from viscorough_study.page.results import read_published, read_results
-from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
+from viscorough_study.robustness.outcomes import VERDICTS as OUTCOMES
 from viscorough_study.run.made_with import all_versions, read_record
 from viscorough_study.run.readable import readable
 from viscorough_study.run.rule_costs import duration_text

@@ -8,7 +8,6 @@ from matplotlib.colors import to_hex
 
 from support.study import ROOT
 from support.workflow import FIGURES, RULES, read_settings
-from viscorough_study.figures.failure_map import LETTERS
 
 REPORT = ROOT / "workflow" / "report"
 
@@ -57,11 +56,6 @@ def test_hurst_exponent_looks_the_same_in_all_figures(drawn):
     assert len(looks) > 8
     assert len({to_hex(look.get_color()) for look in looks}) == 1
     assert {look.get_marker() for look in looks} <= {"s", "", "None"}
-
-
-def test_letters_of_verdicts_are_explained():
-    explained = dict(re.findall(r"\b([A-Z]): ([\w ]+)", " ".join(read("failure_map").split())))
-    assert set(explained) == set(LETTERS.values())
 
 
 def test_texts_of_the_report_can_be_filled_in():

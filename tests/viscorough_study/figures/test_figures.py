@@ -11,10 +11,10 @@ from viscorough import reference
 from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.comparisons.histories import FORCE_CURVE, RECOVERY
 from viscorough_study.figures.exponent import SHIFT
-from viscorough_study.figures.failure_map import CONCERNED, LETTERS, MEANINGS
+from viscorough_study.figures.failures import OUTCOMES
 from viscorough_study.figures.style import SMALL
 from viscorough_study.fits.conventions import fits
-from viscorough_study.robustness.failure_map import VERDICTS
+from viscorough_study.robustness.outcomes import VERDICTS
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -138,38 +138,18 @@ def test_speed_without_a_law_has_no_marker_of_the_law():
     assert [line for line in plot("speed", means, others).axes[0].lines if line.get_marker() == "D"] == []
 
 
-def test_bars_of_failures_are_shares_that_add_up_to_all_cases(drawn):
+def test_failures_show_the_outcome_of_every_cell_and_count_what_is_wrong(drawn):
     (table,) = tables.FROM_TABLES["failures"]
-    by_method, by_group = drawn["failures"].axes[:2]
-    for axes, column in ((by_method, "method"), (by_group, "group")):
-        widths = np.array([patch.get_width() for patch in axes.patches]).reshape(-1, 5)
-        np.testing.assert_allclose(widths.sum(axis=1), 1)
-        for row, (_, cells) in zip(widths, table.groupby(column, sort=False), strict=True):
-            assert row[0] == pytest.approx(cells["verdict"].isin(["holds", "model"]).mean())
-            assert row[4] == (cells["verdict"] == "unnoticed").mean()
-
-
-def test_silent_failures_are_counted_in_the_title_and_at_their_bar():
-    (table,) = tables.FROM_TABLES["failures"]
-    place = table.query("method == 'events'").index[:2]
-    axes = plot("failures", table.assign(verdict=table["verdict"].mask(table.index.isin(place), "unnoticed"))).axes[0]
-    assert axes.get_title() == f"(a) 2 of {len(table)} results are silently wrong"
-    numbers = [text.get_text() for text in axes.texts if text.get_text() != "silent"]
-    assert numbers.count("2") == 1
-    assert set(numbers) == {"0", "2"}
-
-
-def test_failure_map_shows_every_cell_but_those_where_a_difficulty_cannot_matter(drawn):
-    (table,) = tables.FROM_TABLES["failure_map"]
-    concerned = [
-        group not in CONCERNED or method.startswith(CONCERNED[group]) or verdict in ("refused", "unnoticed")
-        for group, method, verdict in table[["group", "method", "verdict"]].itertuples(index=False)
-    ]
-    letters = [text.get_text().split()[-1] for text in drawn["failure_map"].axes[0].texts]
-    assert letters == table["verdict"][concerned].map(LETTERS).tolist()
-    assert {"0 H", "3e-1 M", "R"} <= {text.get_text() for text in drawn["failure_map"].axes[0].texts}
-    assert set(LETTERS) == set(MEANINGS) == set(VERDICTS)
-    assert len(set(LETTERS.values())) == len(LETTERS)
+    axes = drawn["failures"].axes[0]
+    shown = axes.images[0].get_array().astype(int).ravel()
+    assert [list(OUTCOMES)[place] for place in shown] == table["verdict"].tolist()
+    assert len({color for _, color, _ in OUTCOMES.values()}) == len(OUTCOMES)
+    stated = (table["verdict"] == "stated").sum()
+    title = f"0 of {len(table)} results are silently wrong; {stated} are models outside their range"
+    assert axes.get_title() == title
+    silent = table.assign(verdict=table["verdict"].where(table.index > 1, "unnoticed"))
+    assert plot("failures", silent).axes[0].get_title().startswith(f"2 of {len(table)}")
+    assert set(OUTCOMES) == set(VERDICTS)
 
 
 # ---- single figures

@@ -12,12 +12,12 @@ import yaml
 
 from support.code_blocks import run_python, run_shell
 from support.page import BROWSER, Page, number_in, opened
-from support.workflow import ROOT, TABLES, merged, read_settings
+from support.workflow import ROOT, TABLES, TEST, merged, read_settings, snakemake
 from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.page.content import as_yaml
 from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.run.settings import changed_settings
-from viscorough_study.run.tables import read_table
+from viscorough_study.run.tables import read_table, split_table, write_table
 from viscorough_study.verdicts.claims import overall, physics
 
 LARGEST = 3e6  # bytes
@@ -149,6 +149,20 @@ def test_page_compares_the_time_of_the_jobs_with_the_papers(finished_once, page)
         f"Boundary elements: several weeks in the paper, {duration_text(costs['share_s'].sum())} here on this machine"
         in page.text
     )
+
+
+def test_page_lists_all_versions_that_occur_in_the_results(finished):
+    """As after an upgrade of a package between two jobs."""
+    pages = [(finished / "results/index.html").read_text(encoding="utf-8")]
+    path = finished / "results/tables/literature.csv"
+    header, rows = split_table(path)[0], read_table(path)
+    header["made_with"]["versions"]["numpy"].append("99.0")
+    columns = {name: (column["long_name"], column["units"]) for name, column in header.pop("columns").items()}
+    write_table(rows, path, columns=columns, title=header.pop("title"), **header)
+    snakemake(finished, *TEST)
+    pages.append((finished / "results/index.html").read_text(encoding="utf-8"))
+    assert [bool(re.search(r"numpy [\d.]+ and 99\.0", page)) for page in pages] == [False, True]
+    assert ["Several versions" in page for page in pages] == [False, True]
 
 
 def test_every_claim_unfolds_and_shows_verdicts_that_differ_in_the_published_run(page, tables):

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from matplotlib import colormaps
+from matplotlib import colormaps, rc_context
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from PIL import Image
@@ -40,6 +40,21 @@ def test_logarithmic_axes_of_any_range_have_labels(ends, label):
     (axes,) = plot(ends).axes
     axes.figure.draw_without_rendering()
     assert label in {text.get_text() for text in axes.get_xticklabels()}
+
+
+def test_matplotlibrc_of_the_user_changes_no_figure(tmp_path):
+    """matplotlib reads this file when it is imported; rc_context has the same effect."""
+
+    @figure
+    def plot(x):
+        drawn = Figure()
+        drawn.subplots().plot(x, x)
+        return drawn
+
+    save_figure(plot([0, 1]), tmp_path / "a.png")
+    with rc_context({"axes.grid": True, "axes.facecolor": "red", "lines.linestyle": ":", "savefig.facecolor": "red"}):
+        save_figure(plot([0, 1]), tmp_path / "b.png")
+    assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
 
 
 def test_saved_files_are_reproducible(scaling, tmp_path):

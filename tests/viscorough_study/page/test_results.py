@@ -52,6 +52,12 @@ def test_captions_become_html_with_the_conventions_of_the_figures():
     assert html.split("\n")[:2] == ["<p>One x &amp; <code>setting</code>.</p>", "<p>Mean: geometric.</p>"]
 
 
+def test_docutils_settings_of_the_user_change_no_caption(tmp_path, monkeypatch):
+    (tmp_path / "docutils.conf").write_text("[parsers]\nsmart_quotes: yes\n")
+    monkeypatch.setenv("DOCUTILSCONFIG", str(tmp_path / "docutils.conf"))
+    assert caption('the "disc"', {}) == "<p>the &quot;disc&quot;</p>\n"
+
+
 def test_numbers_state_the_rule_of_their_table_and_its_script():
     results = Results({"scaling": pd.DataFrame({"beta": [0.4]})}, {}, {"scaling": "fit_power_laws"})
     place = "results/tables/scaling.csv, line 3, column beta"

@@ -476,8 +476,6 @@ def _jump(system, now, target):
         ended = INFINITE if rises or overlap > _ROUNDING * abs(target) else SETTLED
         return _Now(now.time, target, now.force, now.rate, now.count), ended
     # The dashpot keeps the indenter in place. Release the springs that the new force would pull.
-    for j in range(system.spectrum.decays.size):
-        system.springs.carried[j] += target - now.force
     now = _Now(now.time, now.depth, target, 0.0, now.count)
     while now.count > 1:
         value, _, rounding = _release(system, now)

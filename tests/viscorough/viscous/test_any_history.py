@@ -301,6 +301,11 @@ def test_curve_that_begins_late_gives_a_warning():
     with pytest.warns(AccuracyWarning, match="depends on the curve before its first level"):
         motion = kinetics(curve, load, MEDIA["solid"], [0.2, 0.9, 1.1])
     np.testing.assert_array_equal(np.isnan(motion.force), [True, False, False])
+    load = Load([0, 1, 3.0], force=[0.0, 3 * curve.force[10], 0.0])
+    with pytest.warns(AccuracyWarning, match="depends on the curve before its first level"):
+        motion = kinetics(curve, load, MEDIA["solid"], [0.01, 0.9, 1.1, 2.9])
+    np.testing.assert_array_equal(np.isnan(motion.depth), [True, False, False, True])
+    np.testing.assert_array_equal(np.isnan(motion.velocity), [True, False, False, True])
 
 
 @pytest.mark.parametrize("name", MEDIA)

@@ -50,6 +50,15 @@ def test_force_of_a_dashpot_is_taken_just_after_each_time():
     np.testing.assert_allclose(result.force[1:], expected, rtol=1e-4)
 
 
+def test_force_of_a_held_depth_relaxes_to_the_force_of_the_curve():
+    """The row has the force of the curve at depths that are held, also between the levels of a coarse curve."""
+    curve = curve_of_body(SPHERE, np.geomspace(1e-6, 1, 61), tolerance=1e-2)
+    load = [0.0, 0.234, 0.234, 0.567, 0.567]
+    motion = kinetics(curve, depth=load, medium=MEDIA["solid"], times=[0.0, 1.0, 100.0, 101.0, 200.0])
+    expected = MEDIA["solid"].relaxation.relaxed_modulus * curve.at_depth([0.234, 0.567])[0]
+    np.testing.assert_allclose(motion.force[[2, 4]], expected, rtol=1e-12)
+
+
 def test_force_of_a_dashpot_has_the_stiffness_of_the_curve():
     """The stiffness of the row jumps from spring to spring, by up to 0.2 %, which the force must not show."""
     curve = curve_of_body(SPHERE, np.geomspace(1e-6, 1, 61), tolerance=1e-2)

@@ -8,7 +8,7 @@ import pytest
 from support.curves import curve_of_body, curve_of_levels, random_curve
 from viscorough import AccuracyWarning, Load, Maxwell, indent, kinetics, reference, self_affine_disc
 from viscorough.viscous.integration.events import newtonian_events
-from viscorough.viscous.row import row_of_springs
+from viscorough.viscous.row import elements_in_contact, row_of_springs
 
 DISC = self_affine_disc(0.7, 65, rms=0.01, seed=1)
 
@@ -44,6 +44,22 @@ def test_row_of_a_curve_of_all_contact_events_is_exact():
     np.testing.assert_allclose(np.cumsum(row.stiffness)[last], events.resistance[:-1], rtol=1e-7)
     np.testing.assert_allclose(row.contact_fraction[last] * disc.elements, events.contact_count[:-1], rtol=1e-12)
     assert row.limit == np.inf, "complete contact goes on as a flat punch"
+
+
+def test_tangents_of_levels_meet_at_the_contact_events_between_them():
+    """Between these levels one element joins, so the number of elements is the number at the lower level."""
+    disc = self_affine_disc(0.7, 9, rms=0.01, seed=1)
+    events = newtonian_events(disc)
+    levels = 0.5 * (events.depth[1:] + events.depth[:-1])
+    curve = indent(disc, tolerance=1e-11, depths=levels)
+    row = row_of_springs(curve)
+    event = row.stiffness > 1e-9 * row.stiffness.sum()  # rounding makes further springs at the levels
+    np.testing.assert_allclose(row.gap[event], events.depth[: levels.size], rtol=1e-7)
+    jumps = np.diff(events.resistance[: levels.size], prepend=0.0)
+    np.testing.assert_allclose(row.stiffness[event], jumps, rtol=1e-6)
+    counts = row.contact_fraction[event] * disc.elements
+    np.testing.assert_allclose(counts, events.contact_count[: levels.size], rtol=1e-12)
+    np.testing.assert_array_equal(elements_in_contact(curve, 0.999 * levels[1:]), curve.contact_count[:-1])
 
 
 @pytest.mark.parametrize("size", [5, 7, 9, 11, 17])

@@ -194,7 +194,7 @@ class ReadOnlyArrays:
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented
-        names = [field.name for field in dataclasses.fields(cast(Any, self))]
+        names = [field.name for field in dataclasses.fields(cast(Any, self)) if field.compare]
         return all(_are_equal(getattr(self, name), getattr(other, name)) for name in names)
 
     def __post_init__(self) -> None:

@@ -14,6 +14,7 @@ the tolerance need not join the contact, so the last elements might never join.
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from itertools import accumulate, islice
@@ -25,9 +26,11 @@ from viscorough.basics import units
 from viscorough.basics.argument_names import argument
 from viscorough.basics.arrays import fraction, increasing, real_number
 from viscorough.basics.elasticity import shear_modulus_of
+from viscorough.basics.errors import AccuracyWarning
 from viscorough.basics.types import Array, Progress, Scalar
 from viscorough.contact.argument_checks import check_solvable, warn_beyond_theory
 from viscorough.contact.dense import ROUNDING
+from viscorough.contact.free_edges import FreeEdges
 from viscorough.contact.grid_error import every_nth_point, highest_missed, with_grid_errors
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.prescribed_depth import ContactSolver
@@ -44,6 +47,15 @@ _APPROACH_SHARE = 0.7
 # Close to the contact fraction `start_fraction`, the long steps in depth become shorter. They end at the latest when
 # the ratio of successive depths falls to this value.
 _APPROACH_MIN_RATIO = 1.02
+# A curve ends at most this contact fraction beyond `until_fraction`, unless more elements touch almost at once.
+_OVERSHOOT = 0.02
+# A few elements more may touch at once without a warning, for example the eight equal elements of a symmetric body.
+_FEW_AT_ONCE = 8
+# Elements touch almost at once if the depth changes relatively by less than this number, or by less than this share of
+# the tolerance. The force of contacts at closer depths need not increase, because it is less accurate.
+_AT_ONCE, _SHARE_OF_TOLERANCE = 2e-3, 0.15
+# Near `until_fraction`, an interval of depth is divided at most so close to its ends, as a share of the interval.
+_END_DIVISION = 0.2, 0.8
 # The depth of complete contact is not computed for curves that end at or below this contact fraction.
 _FAR_FROM_COMPLETE = 0.95
 # If the grid error is estimated, the curve of all points takes about this share of the time, and the curve of every
@@ -93,7 +105,8 @@ def indent(
         few levels, and the error of interpolation between them may exceed the tolerance. Ignored if depths or forces
         are given.
     until_fraction : float, optional
-        Largest contact fraction of the curve, in (0, 1]; ignored if depths or forces are given.
+        Contact fraction at the end of the curve, in (0, 1]; ignored if depths or forces are given. The curve ends at
+        most 0.02 beyond it, unless more elements touch almost at once, which a warning states.
     until_force : float or str, optional
         Largest F/G of the curve [length²]; ignored if depths or forces are given.
     shear_modulus : float or str, optional
@@ -137,7 +150,9 @@ def indent(
     Warns
     -----
     AccuracyWarning
-        If the depth is larger than the map is wide.
+        If the depth is larger than the map is wide, if more elements touch at the end than `until_fraction` allows, or
+        if the border of a map from a file carries more than 5 % of the force while less than 30 % of its elements
+        touch. The map then acts as a punch with free edges, and not as a part of a larger surface.
 
     Examples
     --------
@@ -168,7 +183,19 @@ def indent(
     else:
         curve = _curve(request, indenter, tolerance, progress)
     warn_beyond_theory("indent", indenter, curve.depth[-1])
+    if depths is None and forces is None:
+        _warn_of_end(curve, until_fraction)
     return curve
+
+
+def _warn_of_end(curve: LoadingCurve, until_fraction: float) -> None:
+    """Give an AccuracyWarning if a curve ends far beyond a contact fraction, unless all elements touch at once."""
+    few = np.ceil(until_fraction * curve.elements) + max(_OVERSHOOT * curve.elements, _FEW_AT_ONCE)
+    if curve.contact_count[-1] > few and curve.contact_count[0] < curve.elements:
+        reached, asked = f"{curve.contact_fraction[-1]:.3g}", f"{argument('until_fraction')} {until_fraction:g}"
+        text = f"the curve ends at a contact fraction of {reached}, beyond {asked}"
+        text += "; too many elements touch between its last two levels"
+        warnings.warn(f"indent: {text}", AccuracyWarning, stacklevel=3)
 
 
 @dataclass(frozen=True)
@@ -263,21 +290,24 @@ def _curve(request: _CurveRequest, indenter: Indenter, tolerance: float, progres
     depths, forces, options, threads = request.depths, request.forces, request.options, request.threads
     if depths is not None:
         solver = ContactSolver(indenter, tolerance, options, threads, largest_depth=depths[-1], whole=False)
-        contacts = accumulate(depths, solver.advance, initial=solver.unloaded_state())
-        levels = _levels(islice(contacts, 1, None), len(depths), progress)
+        edges, contacts = FreeEdges(solver), accumulate(depths, solver.advance, initial=solver.unloaded_state())
+        levels = _levels(islice(contacts, 1, None), len(depths), edges, progress)
     elif forces is not None:
         # Contacts are solved to half of the tolerance. The other half is left for the correction of each contact to
         # exactly the given force.
         solver = ContactSolver(indenter, tolerance / 2, options, threads, whole=False)
-        levels = _levels(map(ForceSearch(solver).contact_at, forces), len(forces), progress)
+        edges = FreeEdges(solver)
+        levels = _levels(map(ForceSearch(solver).contact_at, forces), len(forces), edges, progress)
     else:
         solver = ContactSolver(indenter, tolerance, options, threads)
-        path = _LoadingPath(solver, request.until_fraction, request.until_force, progress)
+        edges = FreeEdges(solver)
+        path = _LoadingPath(solver, request.until_fraction, request.until_force, edges, progress)
         levels = path.levels_from(request.start_fraction)
     depth = solver.units.length * np.array([level.depth for level in levels])
     force = solver.units.force * np.array([level.pressure_sum for level in levels])
     if not np.isfinite(force).all():
         raise ValueError("indent: forces are too large to represent; a larger unit of length is needed")
+    edges.warn("indent")
     _check_distance(depths, force, "depths", "forces")
     _check_distance(forces, depth, "forces", "depths")
     return LoadingCurve(
@@ -308,14 +338,16 @@ def _check_distance(given: ArrayLike | None, found: Array, name: str, other: str
         raise ValueError(f"{text}; fewer levels or a smaller tolerance are needed")
 
 
-def _levels(contacts: Iterable[ContactState], number: int, progress: Progress) -> list[Level]:
+def _levels(contacts: Iterable[ContactState], number: int, edges: FreeEdges, progress: Progress) -> list[Level]:
     """Return the levels of contacts, and report progress after each contact.
 
     contacts : solved contacts, or an iterator that solves each contact when it is read
     number : number of contacts
+    edges : FreeEdges that looks at each contact
     """
     levels = []
     for contact in contacts:
+        edges.see(contact)
         levels.append(Level.of(contact))
         progress(len(levels) / number)
     return levels
@@ -329,13 +361,22 @@ class _LoadingPath:
     solver : ContactSolver of the indenter
     until_fraction : largest contact fraction of the curve
     until_force : largest F/G of the curve [length²]
+    edges : FreeEdges that looks at each contact
     progress : function that is called with the finished share of the computation
     """
 
-    def __init__(self, solver: ContactSolver, until_fraction: float, until_force: float, progress: Progress) -> None:
-        self._solver, self._progress = solver, progress
+    def __init__(
+        self,
+        solver: ContactSolver,
+        until_fraction: float,
+        until_force: float,
+        edges: FreeEdges,
+        progress: Progress,
+    ) -> None:
+        self._solver, self._edges, self._progress = solver, edges, progress
         self._control = StepControl(solver.tolerance, solver.threads)
         self._until_count = until_fraction * solver.elements.count
+        self._allowed_overshoot = max(_OVERSHOOT * solver.elements.count, 1.0)
         # Contact at the depth of complete contact; computed only when a solved contact may have reached this depth.
         self._complete: ContactState | None = None
         # The limit is slightly above `until_force`, so that rounding does not leave the last level below `until_force`.
@@ -387,6 +428,7 @@ class _LoadingPath:
 
     def _add(self, contact: ContactState) -> None:
         self._contact = contact
+        self._edges.see(contact)
         self._levels.append(Level.of(contact))
         done = max(contact.count / self._until_count, contact.pressure_sum / self._until_pressure_sum)
         self._progress(min(done, 1.0) ** _PROGRESS_EXPONENT)
@@ -421,6 +463,7 @@ class _LoadingPath:
         if events.depth.size and events.depth[0] <= contact.reduced_depth * (1 + ROUNDING):
             # Remove the last level: the first contact event has the same depth, but more elements in contact.
             self._levels.pop()
+        self._edges.see(self._contact)
         self._levels += [Level(*event) for event in zip(*events, strict=True)]
         nearest = self._control.min_ratio * self._contact.reduced_depth
         self._ahead = ContactsAhead(contact for contact in self._ahead if contact.reduced_depth > nearest)
@@ -434,10 +477,27 @@ class _LoadingPath:
             excess = self._control.excess(self._contact, self._ahead[-1])
             if excess > 1 and step > self._control.min_ratio:
                 divided = division(Level.of(self._contact), Level.of(self._ahead[-1]))
-                self._ahead.keep(self._solver.advance_reduced(self._contact, divided))
+            elif self._is_beyond_the_end(self._ahead[-1], step):
+                divided = self._depth_of_end(self._ahead[-1])
+            else:
+                self._add(self._ahead.pop())
+                ratio = self._control.next_ratio(step, excess)
                 continue
-            self._add(self._ahead.pop())
-            ratio = self._control.next_ratio(step, excess)
+            self._ahead.keep(self._solver.advance_reduced(self._contact, divided))
+
+    def _is_beyond_the_end(self, contact: ContactState, ratio: float) -> bool:
+        """Return True if a contact has so many elements in contact that the curve must end before it.
+
+        ratio : depth of the contact divided by the current depth
+        """
+        closest = max(_AT_ONCE, _SHARE_OF_TOLERANCE * (self._control.min_ratio - 1))
+        return contact.count > self._until_count + self._allowed_overshoot and ratio > 1 + closest
+
+    def _depth_of_end(self, contact: ContactState) -> float:
+        """Return a depth at which the curve may end, between the current contact and a contact beyond the end."""
+        target = self._until_count + 0.5 * self._allowed_overshoot
+        share = np.clip((target - self._contact.count) / (contact.count - self._contact.count), *_END_DIVISION)
+        return float(self._contact.reduced_depth * (contact.reduced_depth / self._contact.reduced_depth) ** share)
 
     def _advance(self, ratio: float) -> ContactState:
         """Return the contact at `ratio` times the current depth, or at a smaller depth that ends the curve.

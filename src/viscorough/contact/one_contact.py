@@ -17,6 +17,7 @@ from viscorough.basics.errors import AccuracyWarning
 from viscorough.basics.summaries import with_unit
 from viscorough.basics.types import Array, Progress, Scalar, Several
 from viscorough.contact.argument_checks import check_solvable, warn_beyond_theory
+from viscorough.contact.free_edges import FreeEdges
 from viscorough.contact.gap_map import gap_map
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.prescribed_depth import ContactSolver
@@ -164,12 +165,14 @@ def contact_at(
     largest_depth = float(values[-1]) if by_depth else np.inf
     solver = ContactSolver(indenter, tolerance / 2, options, threads, largest_depth=largest_depth, whole=False)
     states = (_states_at_depths if by_depth else _states_at_forces)(solver, values, progress or (lambda done: None))
-    contacts = []
+    contacts, edges = [], FreeEdges(solver)
     for value, state in zip(values, states, strict=True):
+        edges.see(state)
         # Return the depth or force as given: conversion to reduced units and back would round it.
         depth, force = (float(value), state.force) if by_depth else (state.depth, float(value))
         contacts.append(_with_maps(solver, state, depth, force, tolerance, modulus))
     warn_beyond_theory("contact_at", indenter, contacts[-1].depth)
+    edges.warn("contact_at")
     if text := _completeness_warning(indenter, contacts[-1]):
         warnings.warn(text, AccuracyWarning, stacklevel=2)
     return contacts if np.ndim(given) else contacts[0]

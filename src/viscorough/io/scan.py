@@ -73,7 +73,7 @@ def to_indenter(scan: Scan, spacing: Any = None, unit: str | None = None, scale:
         raise ValueError(f"{argument('spacing')}: {text}; distances of this ratio are needed")
     dx, dy = own if in_file is None else in_file
     places = _places(scan, length_unit) if scan.heights.ndim == 2 and in_file is not None else (None, None)
-    return Indenter(scan.heights, dx, dy, length_unit, *places)
+    return Indenter(scan.heights, dx, dy, length_unit, *places, from_file=True)
 
 
 def _scaled(scan: Scan, scale: Any) -> Scan:

@@ -2,7 +2,7 @@
 
 import math
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -47,6 +47,9 @@ class Indenter(ReadOnlyArrays):
     column_positions, row_positions : array, optional
         Coordinates x of the columns and y of the rows of a map, as the file of the map states them, rising or falling
         [length]. Output files have the same coordinates. By default they rise, and are 0 at the centre of the map.
+    from_file : bool, optional
+        True for heights that were read from a file. `indent` and `contact_at` then warn if the border of the map
+        carries much of the force, as in a scan of a larger surface.
 
     Raises
     ------
@@ -71,6 +74,7 @@ class Indenter(ReadOnlyArrays):
     length_unit: str = "1"
     column_positions: np.ndarray | None = None
     row_positions: np.ndarray | None = None
+    from_file: bool = field(default=False, compare=False)
 
     def __post_init__(self) -> None:
         unit = self.length_unit
@@ -139,8 +143,9 @@ class Indenter(ReadOnlyArrays):
         unit = units.length_unit(unit)
         factor = units.factor(self.length_unit, unit)
         positions = (self.column_positions, self.row_positions)
-        scaled = [None if each is None else each * factor for each in positions]
-        return Indenter(self.heights * factor, self.spacing * factor, self.row_spacing * factor, unit, *scaled)
+        columns, rows = (None if each is None else each * factor for each in positions)
+        spacings = self.spacing * factor, self.row_spacing * factor
+        return Indenter(self.heights * factor, *spacings, unit, columns, rows, from_file=self.from_file)
 
     @property
     def aspect(self) -> float:

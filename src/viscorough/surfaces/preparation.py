@@ -114,7 +114,8 @@ def prepare(
         heights = heights - _fitted(heights, indenter.spacing, indenter.row_spacing, detrend)
     if fill == "harmonic":
         heights = _filled(heights, indenter.aspect)
-    return Indenter(heights, indenter.spacing, indenter.row_spacing, indenter.length_unit, columns, rows)
+    spacings, unit = (indenter.spacing, indenter.row_spacing), indenter.length_unit
+    return Indenter(heights, *spacings, unit, columns, rows, from_file=indenter.from_file)
 
 
 def doubts(indenter: Indenter) -> list[str]:

@@ -5,7 +5,7 @@ import pytest
 
 from support.contract import refused
 from viscorough import Indenter, SolverOptions, contact_at, indent, reference, self_affine_disc
-from viscorough.basics.errors import ConvergenceError
+from viscorough.basics.errors import AccuracyWarning, ConvergenceError
 from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.viscous.integration.events import newtonian_events
 
@@ -259,3 +259,22 @@ def test_levels_closer_than_the_accuracy_are_refused():
         indent(disc, depths=0.02 * (1 + 1e-6 * steps), tolerance=0.1)
     for name in ("depths", "forces"):
         assert indent(disc, **{name: 0.02 * (1 + 1e-3 * steps)}, tolerance=0.1).depth.size == steps.size
+
+
+@pytest.mark.parametrize("tolerance", [1e-1, 1e-2, 1e-4])
+@pytest.mark.parametrize("until_fraction", [0.1, 0.3, 0.9])
+def test_curve_ends_close_to_the_contact_fraction(tolerance, until_fraction):
+    """Without short last steps, the curve of the second disc to 1e-1 ends at 0.55 instead of 0.3."""
+    for hurst, seed in ((0.2, 7), (0.46, 15)):
+        curve = indent(self_affine_disc(hurst, 65, seed=seed), tolerance=tolerance, until_fraction=until_fraction)
+        assert until_fraction <= curve.contact_fraction[-1] < until_fraction + 0.03
+
+
+def test_elements_that_touch_at_once_beyond_the_end_are_a_warning():
+    """Around a punch, the heights follow the surface that it deflects, so that all of them touch at the same depth."""
+    heights = np.full((30, 30), -10.0)
+    heights[10:20, 10:20] = 0.0
+    conformal = Indenter(heights + contact_at(Indenter(heights, 1.0), depth=0.5, tolerance=1e-10).gap, 1.0)
+    with pytest.warns(AccuracyWarning, match=r"ends at a contact fraction of 1, beyond until_fraction 0\.3; too many"):
+        curve = indent(conformal, until_fraction=0.3)
+    assert curve.contact_fraction[-2] < 0.3

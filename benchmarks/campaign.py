@@ -4,10 +4,9 @@
 
 Most families of cases are checked against direct integration in time: levels at given depths, also against the dense
 influence matrix; whole loading curves, at their levels and between them; curves with a start fraction; and levels at
-given forces, also with the methods for large maps. Curves of a further family are checked by the two integrals that
-linear solutions give (viscorough.contact.sum_rules). Whole curves of ordinary discs are checked by the depth of
-complete contact: 257 elements across at a tolerance of 1e-2, and 65 or 129 across at random tolerances from 1e-1 to
-1e-5. `make stability` runs it. A failure is printed with the command that repeats it.
+given forces, also with the methods for large maps. Whole curves of ordinary discs are checked by the depth of complete
+contact: 257 elements across at a tolerance of 1e-2, and 65 or 129 across at random tolerances from 1e-1 to 1e-5. `make
+stability` runs it. A failure is printed with the command that repeats it.
 """
 
 from dataclasses import replace

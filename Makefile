@@ -57,7 +57,7 @@ help:
 	@echo "make bench | large cost of curves and of large maps"
 	@echo "make law | law-errors               calibration of the law of the interface"
 	@echo "make test-slurm    the workflow through Slurm"
-	@echo "make publish       verdicts and numbers from results/ into README.md, docs/ and the package"
+	@echo "make publish       verdicts, figures and tables from results/ into docs/"
 	@echo "make peers | lock  environments of other solvers; renew the lock files"
 	@echo "Variables: CORES=$(CORES), PYTHON=$(PYTHON); SETTINGS=mine.yaml for reproduce, report, speed, stability, fine-grids."
 
@@ -160,7 +160,7 @@ large: environment
 	$(BIN)/python benchmarks/large_discs.py --cores $(CORES) --output results/tables/large.csv
 
 publish: environment
-	$(BIN)/python benchmarks/publish.py --command paper
+	$(BIN)/python benchmarks/publish.py --command reproduce
 
 test-slurm: environment-slurm
 	$(BIN)/python benchmarks/slurm.py --output results/slurm.json

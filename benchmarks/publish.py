@@ -1,12 +1,12 @@
-"""Take verdicts, figures and tables from results into the project: README.md, docs/, the data of the package.
+"""Copy figures, tables and verdicts from results into the project: docs/ and the data of the packages.
 
-    python benchmarks/publish.py --results results --command paper
+    python benchmarks/publish.py --results results --command reproduce
 
 Every command (`make paper`, `make speed`, ...) has its own figures and tables, which are copied into docs/results/ with
 their origin. Name the commands whose results are in the folder: some of the files also exist at a smaller scale.
-`paper` includes the verdicts and the calibrated power law, `law` the law of the interface, and `law-errors` its errors.
-`reproduce` includes the verdicts and the cost of the default run. Then the numbers and tables in README.md and docs/
-are written (benchmarks/pages.py); with `--pages-only` nothing else is done. The workflow writes only into results/.
+`reproduce` includes the verdicts, docs/claims.csv and the page docs/verdicts.md, and the cost of the default run.
+`paper` includes the calibrated power law, `law` the law of the interface, and `law-errors` its errors and the intervals
+of single surfaces.
 """
 
 import io
@@ -17,14 +17,15 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 import click
-import pages
 import pandas as pd
 from measuring import write_json
-from pages import DEFAULT_CLAIMS, DEFAULT_COSTS, FINE_EXPONENTS, OTHER_SOLVERS, ROOT
 from PIL import Image  # matplotlib depends on it
 
 from viscorough_study.performance import timing
 from viscorough_study.run.tables import read_table, split_table
+
+ROOT = Path(__file__).resolve().parents[1]
+OTHER_SOLVERS, DEFAULT_COSTS = "resources/published/other_solvers.csv", "resources/published/default_costs.csv"
 
 
 def _made(figures="", tables="", others=""):
@@ -38,7 +39,7 @@ PUBLISHED = {
     "paper": _made(
         "fig1_surfaces fig2_kinetics fig3_master_curve fig4_exponent conventions validation interface reduction "
         "mdr_lambda",
-        "scaling interface validation direct reduction rule_costs mdr_lambda mdr_summary mdr_exponents plateaus "
+        "scaling interface validation direct rule_costs mdr_lambda mdr_summary mdr_exponents "
         "literature zeta_laws grid_dependence periodic",
     ),
     "speed": _made(
@@ -51,19 +52,20 @@ PUBLISHED = {
     "bench": ["benchmarks.json"],
     "law": _made(tables="law"),
     "law-errors": _made(tables="law_errors"),
-    "reproduce": [],
+    "reproduce": _made("regions", "local_slope"),
 }
 # {command: {file in results/ that other parts of the project read: its place there}}
 KEPT = {
     "paper": {
-        "tables/claims.csv": "docs/claims.csv",
+        "tables/reduction.csv": "resources/published/reduction.csv",
         "tables/calibration.csv": "src/viscorough/law/data/calibration.csv",
     },
-    "fine-grids": {"tables/fine_exponents.csv": FINE_EXPONENTS},
+    "fine-grids": {"tables/fine_exponents.csv": "resources/published/fine_exponents.csv"},
     "law": {"tables/law.csv": "src/viscorough/law/data/law.csv"},
     "reproduce": {
         "tables/rule_costs.csv": DEFAULT_COSTS,
-        "tables/claims.csv": DEFAULT_CLAIMS,
+        "tables/claims.csv": "docs/claims.csv",
+        "tables/claims.md": "docs/verdicts.md",
     },
 }
 
@@ -95,7 +97,7 @@ def copy_picture(file, target):
 def plain_table(file):
     """Return the CSV text of a table without its first line, which tables of some benchmarks do not have."""
     text = file.read_text(encoding="utf-8")
-    return split_table(file)[1] if text.startswith("#") else text
+    return split_table(file)[1] if text.startswith("# {") else text
 
 
 def copy_table(file, target):
@@ -136,15 +138,12 @@ def copy_results(results, project, commands, commit):
 
 @click.command(help=__doc__.splitlines()[0])
 @click.option("--results", type=click.Path(path_type=Path), default=ROOT / "results", show_default=True)
-@click.option("--command", "commands", type=click.Choice(list(PUBLISHED)), multiple=True, default=["paper"])
-@click.option("--pages-only", is_flag=True, help="Write only README.md and docs/; take nothing from results.")
-def main(results, commands, pages_only):
-    if not pages_only:
-        describe = ["git", "describe", "--always", "--dirty", "--exclude=*"]
-        commit = subprocess.run(describe, cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
-        copy_results(results, ROOT, commands, commit)
-    pages.write()
-    click.echo("written: README.md and docs/" + ("" if pages_only else f", with the results of {', '.join(commands)}"))
+@click.option("--command", "commands", type=click.Choice(list(PUBLISHED)), multiple=True, default=["reproduce"])
+def main(results, commands):
+    describe = ["git", "describe", "--always", "--dirty", "--exclude=*"]
+    commit = subprocess.run(describe, cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
+    copy_results(results, ROOT, commands, commit)
+    click.echo(f"copied: results of {', '.join(commands)}")
 
 
 if __name__ == "__main__":

@@ -39,7 +39,7 @@ def results(tmp_path):
 
 def test_only_complete_runs_are_published(results, tmp_path):
     """An incomplete run publishes nothing, for example a folder without the output of `make speed`."""
-    for folder in ("docs", "src/viscorough/law/data"):
+    for folder in ("docs", "resources/published", "src/viscorough/law/data"):
         (tmp_path / folder).mkdir(parents=True)
     with pytest.raises(click.ClickException, match="make speed"):
         publish.copy_results(results, tmp_path, ["paper", "speed"], "abc")

@@ -62,7 +62,9 @@ def dashed(axes):
 
 
 def published(name):
-    return pd.read_csv(ROOT / f"docs/results/{name}.csv")
+    """Return a published table, which is in docs/results, or in resources/published if the workflow reads it."""
+    folder = "resources/published" if name == "reduction" else "docs/results"
+    return pd.read_csv(ROOT / f"{folder}/{name}.csv")
 
 
 def combinations_of(**values):
@@ -82,6 +84,11 @@ def media_table():
     table = combinations_of(medium=media, hurst=HURST, time=time)
     power = table["time"] ** table["hurst"]
     return table.assign(x=1e-2 * table["time"], depth=power, velocity=power, realizations=6)
+
+
+def slopes_table():
+    """Return the ends of region (b) of discs and of a control at the Hurst exponents of the ensembles."""
+    return combinations_of(case_group=("base", "roll_off"), hurst=HURST).assign(x_low=1e-2, x_high=0.2)
 
 
 def histories_table():

@@ -10,45 +10,27 @@ import xarray as xr
 
 from viscorough import LoadingCurve, reference
 from viscorough_study.comparisons.direct_integration import compare_direct
-from viscorough_study.comparisons.mdr_equivalence import WINDOWS
 from viscorough_study.ensembles.averages import DIMENSIONS, abscissa, on_abscissae, with_averages
 from viscorough_study.ensembles.pool import REALIZATION_COORDINATES, VARIABLES
+from viscorough_study.fits.conventions import READINGS
 from viscorough_study.fits.fit_table import scaling_table
-from viscorough_study.fits.intervals import three_columns
-from viscorough_study.fits.zeta_laws import zeta_laws
+from viscorough_study.fits.intervals import UNDEFINED, three_columns
+from viscorough_study.fits.zeta_laws import zeta_laws_of_pool
 from viscorough_study.run.paper_data import read_paper
 from viscorough_study.verdicts.evidence import Evidence
 
 ROOT = Path(__file__).resolve().parents[2]
-CLAIMS, NUMBERS = (read_paper(ROOT / "resources/paper", name) for name in ("claims", "numbers"))
+NUMBERS = read_paper(ROOT / "resources/paper", "numbers")
 SHOWN = {"average": "geometric", "rms_convention": "disc", "window_rule": "default", "gamma": "without"}
 LIMITS = {"elements_min": 10, "stiffness_max": 0.2, "slope_max": 0.8, "slope_half_width": 0.25}
 LIMITS |= {"fraction_min": 0.95, "decades_min": 0.5}
-RULES = {"decades_min": 2.0, "end_decades": 0.25}
-GRIDS = [  # κ at u/h = 1 of three Hurst exponents, on two grids with enough elements in contact; vt/h of one of them
-    {"hurst": hurst, "quantity": quantity, "across": across, "value": value, "compared": int(across > 33)}
-    | three_columns("factor", factor)
-    for hurst, quantity, factor in (
-        (0.4, "κ at u/h = 1", (0.7, 0.6, 0.8)),
-        (0.6, "κ at u/h = 1", (0.9, 0.8, 1.0)),
-        (0.9, "κ at u/h = 1", (1.01, 0.98, 1.04)),
-        (0.9, "vt/h at X = 1", (0.5, 0.4, 0.6)),
-    )
-    for across, value in ((33, 0.4), (65, 0.3), (129, 0.2))
-]
-METHODS = [  # 1 ms for a step, 1 ns for a point
-    ("explicit, logarithmic steps", 0.8, 257, 16, 1.0, 0.1, 16),
-    ("explicit, logarithmic steps", 0.8, 257, 256, 0.256, 0.005, 256),
-    ("path, automatic levels", 0.8, 257, 0.1, 0.02, 0.03, 15),
-    ("path, automatic levels", 0.8, 257, 0.01, 0.04, 0.005, 58),
-    ("path, automatic levels", 0.4, 257, 0.01, 0.05, 0.004, 51),
-    ("path, automatic levels", 0.4, 257, 0.001, 0.08, 0.0005, 413),
-    ("path, automatic levels", 0.4, 65, 0.001, 0.08, 0.0005, 7),
-    ("MDR", 0.8, 257, 1e6, 1e-3, 0.2, 1e6),
-    ("MDR", np.nan, 257, 1e7, 1.0, 0.2, 1e7),
-    ("MDR", 0.8, 65, 1e7, 1.0, 0.2, 1e7),
-]
 BOOTSTRAP = {"resamples": 50, "seed": 1}
+FINE = [  # β on fine grids: its limit is known at H = 0.4, and open at H = 0.1
+    {"hurst": hurst, "x_low": 1e-3, "across": 4097, "expected": hurst / (1 + hurst), "finding": finding}
+    | three_columns("beta", (0.3, 0.28, 0.32))
+    | three_columns("limit", limit)
+    for hurst, finding, limit in ((0.1, "open", UNDEFINED), (0.4, "within", (0.29, 0.28, 0.3)))
+]
 X = abscissa(1e-7, 30.0, 20)
 HURST = (0.4, 0.6, 0.9)
 ACROSS, ELEMENTS = 257, 51433
@@ -57,8 +39,8 @@ ACROSS, ELEMENTS = 257, 51433
 def ensemble(hurst, case, zeta, *, bent=0.0, scatter=0.02, seed=0, square=1.0):
     """Make discs with κ = ζ X^α from one element in contact to complete contact.
 
-    square : factor on ζ in the convention with h of the square; bent : added to α; scatter : standard deviation of ln ζ
-        over 20 realizations
+    square : factor on ζ with h of the square, which is the h of reading B; bent : added to α
+    scatter : standard deviation of ln ζ over 20 realizations
     """
     random = np.random.default_rng([seed, round(hurst * 1e6)])
     alpha = reference.exponent_alpha(hurst) + bent
@@ -83,6 +65,8 @@ def pool_of(members, group="base"):
 def evidence(zeta=reference.zeta_elastic, **options):
     """Make evidence of four combinations and three Hurst exponents, with lines that equal the first combination.
 
+    The discs of both readings are the same, but for the rms height.
+
     zeta : function of H; options : as in `ensemble`. The caller may change the returned copy; the same evidence is made
         once.
     """
@@ -95,28 +79,24 @@ def _evidence(zeta, **options):
     members = [ensemble(hurst, f"c{i}", zeta(hurst), seed=i, **options) for hurst in HURST for i in range(4)]
     discs, lines = pool_of(members), pool_of(4 * members[::4])  # at least as many as the paper averages
     lines = lines.sel(rms_convention=["disc"]).assign_coords(rms_convention=["line"])
-    scaling = scaling_table(discs, lines, **BOOTSTRAP, stiffness_range=[0.03, 0.3], **LIMITS)
-    plateaus = pd.DataFrame({"hurst": HURST} | three_columns("decades", (2.4, 2.2, 2.6)))
-    plateaus = plateaus.assign(**three_columns("half_spread", (0.02, 0.01, 0.03)), region_decades=1.5)
-    validation = pd.DataFrame({"case": "sphere_reduction", "quantity": "depth", "elements": (65, 129)})
-    evidence = evidence_of(
+    discs = xr.concat([discs, pool_of(members, READINGS["B"]["case_group"])], "realization")
+    fit = {"stiffness_range": [0.03, 0.3], **LIMITS}
+    slope = pd.DataFrame({"hurst": HURST} | three_columns("half_spread", (0.02, 0.01, 0.03)))
+    slope = slope.assign(realizations=80, line_residual=0.005)
+    return evidence_of(
         discs,
-        scaling=scaling,
-        validation=validation.assign(error=1 / validation["elements"] ** 2),
+        scaling=scaling_table(discs, lines, **BOOTSTRAP, **fit),
+        zeta_laws=zeta_laws_of_pool(discs, average="geometric", hurst_mins=(0.0, 0.6), fit=fit, **BOOTSTRAP),
+        local_slope=pd.concat([slope.assign(case_group=own["case_group"]) for own in READINGS.values()]),
         direct=compare_direct(hursts=HURST, elements=17, impulses=25, seed=1),
-        methods=pd.DataFrame(METHODS, columns=["method", "hurst", "elements", "value", "wall_s", "error", "steps"]),
-        grid_dependence=pd.DataFrame(GRIDS),
-        sizes=scaling.query("source == 'discs'").assign(case_group="sizes", elements=round(0.778 * ACROSS**2)),
-        plateaus=plateaus.assign(case_group="base", realizations=80, power_law_fails=0.0),
+        fine_exponents=pd.DataFrame(FINE),
         **mdr_tables(),
     )
-    laws = zeta_laws(evidence.pooled, evidence.regions, (0.0, 0.6), average="geometric", **BOOTSTRAP)
-    return replace(evidence, tables=evidence.tables | {"zeta_laws": laws})  # the evidence has not pooled the discs yet
 
 
 def evidence_of(discs, **tables):
     """Make evidence of a pool of discs and these tables."""
-    rules = {"limits": LIMITS, "rules": RULES, "surfaces": ["base"], **BOOTSTRAP}
+    rules = {"limits": LIMITS, **BOOTSTRAP}
     return Evidence(discs=discs, tables=tables, numbers=NUMBERS, conventions=SHOWN, across=ACROSS, **rules)
 
 
@@ -144,23 +124,19 @@ def evidence_with_factors(scatter):
 def mdr_tables(drift=1.0, ratio=1.0):
     """Make tables of lines against discs with narrow intervals, in which λ drifts by a factor.
 
-    ratio : ratio of contact fractions and of gaps; also the factor between single stiffnesses
+    ratio : ratio of contact fractions and of gaps
     """
 
     def interval(name, value, half):
         return three_columns(name, (value, value - half, value + half))
 
     summary = interval("drift", drift, 0.01) | interval("error_trend", np.log(drift) / 4, 0.005)
-    summary |= interval("error_whole", np.abs(np.log(drift)), 0.005) | {"realizations": 1000}
-    difference = [interval("difference", np.log(drift) / 10, 0.002) | {"window": name} for name in WINDOWS]
-    compared = interval("area_ratio", ratio, 0.01) | {"realizations": 1000, "stiffness_scatter": np.log(ratio)}
+    compared = interval("area_ratio", ratio, 0.01) | {"realizations": 1000}
     x = np.geomspace(1e-4, 1, 9)
     gap = interval("gap_ratio", np.where(np.arange(9) % 2, np.nan, ratio), 0.01)
     every = pd.DataFrame({"hurst": HURST})
     return {
-        "histories": every.assign(deviation=-2e-5, deviation_coarse=8e-5),
-        "mdr_summary": every.assign(**summary),
-        "mdr_exponents": every.merge(pd.DataFrame(difference).assign(realizations=1000), how="cross"),
+        "mdr_summary": every.assign(**summary, realizations=1000),
         "reduction": every.merge(pd.DataFrame({"x": x} | compared | gap), how="cross"),
     }
 

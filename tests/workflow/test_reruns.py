@@ -57,13 +57,11 @@ def add_line(path, line):
     path.write_text(f"{path.read_text()}{line}\n")
 
 
-FEW_STEPS = {"media": {"force": 2e-4}, "verdicts": {"draws": 3}, "interface": {"plateau": 0.1}}
+FEW_STEPS = {"media": {"force": 2e-4}, "interface": {"plateau": 0.1}}
 FEW_STEPS |= {"methods": {"levels": 3}, "validation": {"elements": [17, 31]}}
 FEW_STEPS |= {"stability": {"across": 11}, "direct": {"elements": 31}}
 OF_FEW_STEPS = {
     "compute_media",
-    "measure_plateaus",
-    "judge_claims",
     "fit_interface",
     "measure_methods",
     "compare_exact",
@@ -82,7 +80,7 @@ OF_CONVENTIONS |= {"plot_kinetics", "plot_master_curve", "plot_exponent", "plot_
     ("changed", "directly"),
     [
         (FEW_STEPS, OF_FEW_STEPS),
-        ({"scaling": {"stiffness_max": 0.25}}, FITS | {"fit_power_laws", "fit_sizes", "measure_plateaus"}),
+        ({"scaling": {"stiffness_max": 0.25}}, FITS | {"fit_power_laws", "fit_sizes", "fit_local_slope"}),
         ({"figures": {"average": "arithmetic"}}, OF_CONVENTIONS),
         ({"ensemble": {"per_decade": 25}}, {"aggregate_curves"}),
         ({"surface": {"period": 1.5}}, {"generate_discs", "generate_examples"}),
@@ -98,7 +96,7 @@ def test_changed_setting_reruns_only_the_rules_that_use_it(finished_once, tmp_pa
 
 def test_changed_lines_rerun_no_rule_that_uses_only_discs(finished_once, tmp_path, with_dependents):
     planned = set(plan(finished_once, *TEST, settings_file(tmp_path, "changed", lines={"points": 2048})))
-    disc_rules = {"compare_zeta_laws", "compare_grids", "measure_plateaus"}
+    disc_rules = {"compare_zeta_laws", "compare_grids", "fit_local_slope"}
     disc_rules |= {"fit_sizes", "plot_sizes"}  # their lines have other numbers of points
     assert planned == with_dependents({"reduce_lines"}) - disc_rules | LAST
 

@@ -115,20 +115,21 @@ def test_a_second_run_is_refused_and_keeps_the_output_of_the_first(run):
 def test_summary_is_three_lines(tmp_path):
     (tmp_path / "tables").mkdir()
     rows = [
-        ("a", "reproduced", "own"),
-        ("a", "undecided", "own"),
-        ("b", "reproduced", "own"),
-        ("c", "reproduced", "own"),
+        ("a", "", "holds", "own"),
+        ("a", "", "undecided", "own"),
+        ("b", "A", "holds", "own"),
+        ("b", "B", "not", "own"),
+        ("c", "", "holds", "own"),
+        ("d", "", "not", "quoted"),
     ]
-    rows += [("d", "not reproduced", "quoted")]
-    claims = pd.DataFrame(rows, columns=["claim", "verdict", "origin"]).assign(kind="physics")
+    claims = pd.DataFrame(rows, columns=["claim", "reading", "verdict", "kind"]).assign(case="all H")
     columns = {name: (name, None) for name in claims}
     costs = pd.DataFrame({"share_s": [200.0, 40.0]})
     write_table(costs, tmp_path / "tables/rule_costs.csv", columns={"share_s": ("time", "s")}, title="Costs")
     for trial, added in ((0, ""), (1, "; trial scale, on which verdicts mean nothing")):
         write_table(claims, tmp_path / "tables/claims.csv", columns=columns, title="Claims", trial=trial)
         assert summary(tmp_path, ROOT / "resources/paper") == [
-            "3 claims of the paper: 2 reproduced, 1 undecided" + added,
+            "3 claims of the paper: 1 holds, 1 holds in A, 1 undecided" + added,
             "It took 4.0 minutes; the paper: several weeks",
             f"Open {tmp_path}/index.html in a browser",
         ]

@@ -115,6 +115,32 @@ use rule plot_surfaces as plot_exponent with:
         "Figure: 4, exponent"
 
 
+use rule plot_surfaces as plot_regions with:
+    input:
+        discs="results/ensembles/discs.nc",
+        controls="results/ensembles/discs.nc",
+        local_slope="results/tables/local_slope.csv",
+    output:
+        path=report(
+            "results/figures/regions.{format}",
+            caption="../report/figures/regions.rst",
+            category=category("3 Verdicts"),
+            labels={"result": "regions of the curves", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_regions/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_regions/{format}.tsv"
+    params:
+        figure="regions",
+        options={
+            "fraction_min": config["scaling"]["fraction_min"],
+        },
+        source=digest("plot", figure="regions"),
+    message:
+        "Figure: regions of the curves"
+
+
 use rule plot_surfaces as plot_conventions with:
     input:
         scaling="results/tables/scaling.csv",
@@ -421,6 +447,7 @@ rule figures:
                 "fig2_kinetics",
                 "fig3_master_curve",
                 "fig4_exponent",
+                "regions",
                 "conventions",
                 "interface",
                 "direct",

@@ -1,5 +1,5 @@
-# Rules that fit ensembles: β and ζ of every ensemble, λ of lines matched to discs, the interface, and the decades of
-# constant slope; further fits on grids from coarse to fine.
+# Rules that fit ensembles: β and ζ of every ensemble, λ of lines matched to discs, the interface, and the local
+# slope within region (b); further fits on grids from coarse to fine.
 
 
 rule fit_power_laws:
@@ -84,35 +84,31 @@ rule fit_interface:
         "../scripts/fit_interface.py"
 
 
-rule measure_plateaus:
+rule fit_local_slope:
     input:
         discs="results/ensembles/discs.nc",
     output:
-        csv="results/tables/plateaus.csv",
+        csv="results/tables/local_slope.csv",
     log:
-        "results/logs/measure_plateaus.log",
+        "results/logs/fit_local_slope.log",
     benchmark:
-        "results/benchmarks/measure_plateaus.tsv"
+        "results/benchmarks/fit_local_slope.tsv"
     localrule: True
     conda:
         "../envs/viscorough.yaml"
     resources:
         mem_mb=2000,
     params:
-        **chosen("verdicts", "decades_min", "draws"),
-        control=next((case["name"] for case in config["variants"]["cases"] if case.get("roll_off_wavelength")), None),
-        rms_convention=config["figures"]["rms_convention"],
+        controls=[case["name"] for case in config["variants"]["cases"] if case.get("roll_off_wavelength")],
         region=without("scaling", "stiffness_range", "resamples"),
         half_width=config["scaling"]["slope_half_width"],
-        x_range=config["verdicts"]["plateau_range"],
-        tolerance=paper("claims")["power_law"]["tolerance"],
         resamples=config["scaling"]["resamples"],
         seed=config["seed"],
-        source=digest("measure_plateaus"),
+        source=digest("fit_local_slope"),
     message:
-        "Decades over which the slope is constant"
+        "Local slope within region (b), of the discs and of a control"
     script:
-        "../scripts/measure_plateaus.py"
+        "../scripts/fit_local_slope.py"
 
 
 rule compare_zeta_laws:

@@ -26,7 +26,7 @@ rule tables:
                 "reduction",
                 "direct",
                 "histories",
-                "plateaus",
+                "local_slope",
                 "zeta_laws",
                 "literature",
                 "methods",
@@ -89,6 +89,7 @@ PAGE_FIGURES = [
     "fig2_kinetics",
     "fig3_master_curve",
     "fig4_exponent",
+    "regions",
     "conventions",
     "interface",
     "direct",
@@ -109,7 +110,6 @@ PAGE_TABLES = {
     "failure_map": "map_failures",
     "rule_costs": "tabulate_rule_costs",
     "media": "compute_media",
-    "literature": "tabulate_literature",
     "sufficient_models": "choose_models",
 }
 if MEASURED:
@@ -121,8 +121,8 @@ if MEASURED:
 PAGE_TEXTS = [
     *sorted(path for path in (WORKFLOW / "page").rglob("*") if path.is_file()),
     *sorted((WORKFLOW / "report").rglob("*.rst")),
+    PROJECT / "resources/published/fine_exponents.csv",
     PROJECT / "resources/published/other_solvers.csv",
-    PROJECT / "docs/claims.csv",
     PROJECT / "docs/rules.png",
     PROJECT / "docs/results/local_exponent.png",
 ]
@@ -151,7 +151,6 @@ rule make_page:
     resources:
         mem_mb=1000,
     params:
-        claims=paper("claims"),
         numbers=paper("numbers"),
         fraction_min=config["scaling"]["fraction_min"],
         made_by=PAGE_TABLES,

@@ -6,17 +6,10 @@ rule judge_claims:
         discs="results/ensembles/discs.nc",
         tables=[
             "results/tables/scaling.csv",
-            "results/tables/validation.csv",
             "results/tables/direct.csv",
-            "results/tables/reduction.csv",
             "results/tables/mdr_summary.csv",
-            "results/tables/mdr_exponents.csv",
-            "results/tables/plateaus.csv",
+            "results/tables/local_slope.csv",
             "results/tables/zeta_laws.csv",
-            "results/tables/methods.csv",
-            "results/tables/sizes.csv",
-            "results/tables/grid_dependence.csv",
-            "results/tables/histories.csv",
         ],
     output:
         csv="results/tables/claims.csv",
@@ -31,17 +24,14 @@ rule judge_claims:
     resources:
         mem_mb=2000,
     params:
-        claims=paper("claims"),
         numbers=paper("numbers"),
         fine_grids=judged_rows(PROJECT),
-        rules=config["verdicts"],
         conventions=config["figures"],
-        surfaces=cases.surfaces_left_open(config),
         across=config["discs"]["elements"],
         limits=without("scaling", "stiffness_range", "resamples"),  # limits of region (b)
         resamples=config["scaling"]["resamples"],
         seed=config["seed"],
-        source=digest("judge_claims"),
+        source=[digest("judge_claims"), *text_digests([PROJECT / "resources/published/reduction.csv"])],
     message:
         "Verdicts on the claims of the paper"
     script:

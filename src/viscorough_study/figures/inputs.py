@@ -7,6 +7,7 @@ discs that all figures use.
 from viscorough.io.datasets import read_dataset
 from viscorough_study.ensembles import pool
 from viscorough_study.ensembles.surface_files import read_surfaces
+from viscorough_study.fits.conventions import READINGS
 
 
 def examples(path):
@@ -35,6 +36,13 @@ def longer_period(path):
     return [by_hurst[hurst] for hurst in sorted(by_hurst)]
 
 
+def controls(path):
+    """Read the curves of discs that belong to no reading of the paper; return a list of ensembles, one for each H."""
+    groups = [own["case_group"] for own in READINGS.values()]
+    every = pool.ensembles(read_dataset(path), "group", "hurst")
+    return [ensemble for (group, _), ensemble in every.items() if group not in groups]
+
+
 def lines(path):
     """Read the MDR lines; return a list of ensembles, one for each Hurst exponent."""
     return list(pool.ensembles(read_dataset(path), "hurst").values())
@@ -51,6 +59,7 @@ READERS = {
     "ensembles": ensembles,
     "discs": discs,
     "longer_period": longer_period,
+    "controls": controls,
     "lines": lines,
     "groups": groups,
 }

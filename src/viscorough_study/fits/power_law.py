@@ -39,6 +39,19 @@ def local_slopes(log_x, log_y, half_width):
     return np.divide(np.where(defined, log_y, 0) @ offset.T, (offset**2).sum(axis=1), out=slopes, where=number > 1)
 
 
+def inner_slopes(log_x, log_y, half_width):
+    """Return the inner abscissae, at least half_width from both ends of the curves, and the local slopes there.
+
+    log_x : ln X, equally spaced, shape (abscissae,)
+    log_y : ln y, shape (curves, abscissae), without nan
+    half_width : a local slope is fitted to the points within ± half_width in ln X
+    Returns ln X and the slopes, of shapes (inner abscissae,) and (curves, inner abscissae). Both are empty if there is
+    no inner abscissa.
+    """
+    reach = int(half_width / (log_x[1] - log_x[0]) + ROUNDING) if log_x.size > 1 else 1
+    return log_x[reach:-reach], local_slopes(log_x, log_y, half_width)[:, reach:-reach]
+
+
 def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_width, fraction_min, decades_min):
     """Return the range (X_low, X_high) of region (b), or None if there is no region (b).
 

@@ -4,19 +4,18 @@ from pathlib import Path
 
 import yaml
 
-from viscorough_study.page import answers, content
+from viscorough_study.fits.fine_sentence import fine_grids_sentence, judged_rows
+from viscorough_study.page import content
 from viscorough_study.page.calculator import calculator
 from viscorough_study.page.chart import chart
-from viscorough_study.page.discussion import QUANTITIES, discussion
 from viscorough_study.page.render import embedded_png, render
-from viscorough_study.page.results import read_published, read_results
+from viscorough_study.page.results import read_results
 from viscorough_study.robustness.outcomes import VERDICTS as OUTCOMES
 from viscorough_study.run.made_with import all_versions, read_record
 from viscorough_study.run.readable import readable
 from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.run.tables import split_table
-from viscorough_study.verdicts.answer import answer, short_answer
-from viscorough_study.verdicts.claims import findings
+from viscorough_study.verdicts.claim import KINDS
 
 # {picture in docs/results/ that the page shows without drawing it: command that draws it}
 PUBLISHED_PICTURES = {"local_exponent": "make fine-grids"}
@@ -25,8 +24,7 @@ PUBLISHED_PICTURES = {"local_exponent": "make fine-grids"}
 def page_of(project, discs, figures, *, fraction_min, **run):
     """Return the HTML of the page.
 
-    project : folder of the project, which contains the templates, the captions, published numbers and verdicts, and the
-        picture of the rules
+    project : folder of the project, which contains templates, captions, published numbers, and the picture of the rules
     discs : NetCDF file with the loading curves of all discs of the run (ensembles.pool)
     figures : paths of the figures; the name of a file without suffix is the name of the figure
     fraction_min : least share of the realizations behind a mean of the interactive Figure 2
@@ -47,46 +45,40 @@ def page_of(project, discs, figures, *, fraction_min, **run):
     return render(template, style, figures, captions, **parts, **contents)
 
 
-def contents_of(project, discs, lines, *, tables, claims, numbers, made_by, changed, files):
+def contents_of(project, discs, lines, *, tables, numbers, made_by, changed, files):
     """Return the variables for the template of the page, {name: content}.
 
-    project : folder of the project, which contains published numbers and verdicts
+    project : folder of the project, which contains published numbers
     discs, lines : NetCDF files with the loading curves of all discs and of all lines of the run (ensembles.pool)
     tables : paths of CSV files; a table has the name of its file without the suffix
-    claims, numbers : contents of resources/paper/claims.yaml and numbers.yaml
+    numbers : content of resources/paper/numbers.yaml
     made_by : {name of a table: Snakemake rule that made it}
     changed : {setting: (value, default value)} of all settings of the run that are not the default
     files : settings files of the run
     """
     tables = {Path(path).stem: path for path in tables}
     results = read_results(tables, made_by)
-    published = read_published(project / "docs/claims.csv")
     conventions = results.settings["claims"]["conventions"]
-    scale, verdicts = content.scale(discs, lines, numbers), content.verdicts(results, claims, published)
+    claims = content.claims(results)
     costs = split_table(tables["rule_costs"])[0]
     return {
         "results": results,
         "conventions": conventions,
         "readable": readable,
-        "scale": scale,
-        "answer": answer(results.tables["claims"]),
-        "short_answer": short_answer(results.tables["claims"]),
-        "answers": answers.answers(results),
-        "findings": findings(results.tables["claims"], claims),
-        "verdict_counts": answers.verdict_counts(results, published),
-        "verdict_short": content.VERDICT_SHORT,
-        "overall": {claim["name"]: claim["verdict"] for claims in verdicts.values() for claim in claims},
-        "case_counts": {claim["name"]: claim["case_counts"] for claims in verdicts.values() for claim in claims},
-        "verdicts": verdicts,
-        "differing": [claim for claims in verdicts.values() for claim in claims if claim["full_scale"]],
+        "scale": content.scale(discs, lines, numbers),
+        "claims": claims,
+        "findings": content.findings(claims),
+        "fine_grids": fine_grids_sentence(judged_rows(project)),
+        "in_short": content.in_short(claims),
+        "verdict_counts": content.verdict_counts(results),
+        "mark": content.mark,
+        "kinds": KINDS,
         "models": results.records("sufficient_models"),
         "full_map": results.number("one_surface", results.tables["one_surface"]["across"].idxmax(), "across"),
-        "failures": answers.failures(results),
+        "failures": content.failures(results),
         "outcomes": OUTCOMES,
         "other": content.other_solvers(project / "resources/published/other_solvers.csv"),
         "media": content.media(results),
-        "literature": discussion(results),
-        "quantities": QUANTITIES,
         "measured": content.measured(results, conventions),
         "changed": {name: [content.as_yaml(value) for value in pair] for name, pair in changed.items()},
         "files": files,

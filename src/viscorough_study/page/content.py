@@ -1,68 +1,103 @@
-"""Collect the results for the lower part of the page: verdicts on the paper's claims, tables, and size of the run."""
+"""Collect the contents of the page: claims with their verdicts, tables, stress tests, and the size of the run."""
 
 import json
+from collections import Counter
 
 import numpy as np
 import pandas as pd
 import yaml
 
 from viscorough.io.netcdf import opened
+from viscorough_study.page.results import Number
+from viscorough_study.robustness.stress_solutions import MODELS
 from viscorough_study.run.cases import medium_label
-from viscorough_study.verdicts.claims import (
-    KINDS,
-    case_counts,
-    cases_shown,
-    deciding_case,
-    is_trial,
-    overall,
-    place,
-    value_text,
-    verdict_text,
-)
+from viscorough_study.verdicts.claim import KINDS
+from viscorough_study.verdicts.claims import CLAIMS, counted_verdicts, is_trial, verdicts_of
 
-VERDICT_SHORT = {
-    "reproduced": "yes",
-    "reproduced under a stated convention": "partly",
-    "reproduced in part": "partly",
-    "not reproduced": "no",
-    "undecided": "open",
-}
+MARKS = {"holds": "yes", "holds in A": "partly", "holds in B": "partly", "in part": "partly", "not": "no"}
+COUNTED = ("own", "quoted")  # kinds of claims that are counted
 
 
-def verdicts(results, statements, published):
-    """Return the paper's claims with their verdicts, grouped by kind: {heading of the kind: list of claims}.
+def claims(results):
+    """Return the claims of the run as dicts, in the order of the page.
 
-    A claim is tested in several cases, such as Hurst exponents. Each claim is a dict with its statement, its verdict,
-    and the numbers of the cases that the page shows. If the published verdict differs from the verdict of this run,
-    `full_scale` is the published verdict with the case that decides it; otherwise it is None.
-
-    statements : content of resources/paper/claims.yaml
-    published : published table of claims, from a run with the grids and numbers of surfaces of the paper
+    claim : Claim; verdict : Verdict; mark : class of the verdict in the style sheet
+    tolerance : Number
+    cases : a dict for each case, with its name, the value expected by the paper (a Number), and for each reading the
+        row of the table of verdicts (Results.record)
     """
-    claims, at_full_scale = {heading: [] for heading in KINDS.values()}, overall(published)
-    for name, verdict in overall(results.tables["claims"]).items():
-        rows, full_scale = results.rows("claims", claim=name), None
-        displayed = cases_shown(rows)
-        if at_full_scale.get(name, verdict) != verdict:
-            claim_cases = published[published["claim"] == name]
-            deciding = claim_cases.loc[deciding_case(claim_cases)]
-            full_scale = {"verdict": at_full_scale[name], "case": f"{deciding['case']}: {value_text(deciding)}"}
-        claims[KINDS[statements[name]["kind"]]].append(
-            {
-                **statements[name],
-                "name": name,
-                "where": place(statements[name]),
-                "tolerance": results.number("claims", rows.index[0], "tolerance"),
-                "verdict": verdict,
-                "verdict_text": verdict_text(rows),
-                "case_counts": case_counts(rows),
-                "full_scale": full_scale,
-                "deciding": results.record("claims", deciding_case(rows)),
-                "cases": [results.record("claims", i) for i in displayed.index],
-                "left_out": len(rows) - len(displayed),
-            }
-        )
-    return {heading: members for heading, members in claims.items() if members}
+    verdicts, shown = verdicts_of(results.tables["claims"]), []
+    for claim in (claim for claim in CLAIMS if claim.name in verdicts):
+        rows, verdict = results.rows("claims", claim=claim.name), verdicts[claim.name]
+        cases = []
+        for name, of_case in rows.groupby("case", sort=False):
+            records = {row["reading"]: results.record("claims", i) for i, row in of_case.iterrows()}
+            cases.append({"name": name, "expected": next(iter(records.values()))["expected"], "readings": records})
+        tolerance = results.number("claims", rows.index[0], "tolerance")
+        described = {"claim": claim, "verdict": verdict, "mark": mark(verdict.word), "tolerance": tolerance}
+        shown.append(described | {"cases": cases})
+    return shown
+
+
+def mark(word):
+    """Return the class of a verdict in the style sheet."""
+    return MARKS.get(word.partition(" at ")[0].partition(",")[0], "open")
+
+
+def findings(shown):
+    """Group claims by the figure that shows them: [(name of the figure, claims)], in the order of the claims.
+
+    shown : result of `claims`; identities belong to no finding
+    """
+    groups = {}
+    for claim in shown:
+        if claim["claim"].kind != "identity":
+            groups.setdefault(claim["claim"].figure, []).append(claim)
+    return list(groups.items())
+
+
+def in_short(shown):
+    """Group the paper's own claims by how they fare: [(heading, claims)], without groups that have no claim."""
+    own = [claim for claim in shown if claim["claim"].kind == "own"]
+    headings = {
+        "Right": ("holds",),
+        "Right in part, or in one reading of the paper": ("holds in A", "holds in B", "in part"),
+        "Undecided": ("undecided",),
+        "Not found": ("not",),
+    }
+    groups = {heading: [c for c in own if c["verdict"].word in words] for heading, words in headings.items()}
+    return [(heading, members) for heading, members in groups.items() if members]
+
+
+def verdict_counts(results):
+    """Return {heading of a kind: list of `Number`}, how many of its claims have which verdict, for counted kinds."""
+    counts = {}
+    for kind in COUNTED:
+        column, place = f"verdict over all cases of the claims of kind {kind}", results.origin("claims")
+        numbers = counted_verdicts(results.tables["claims"], kind)
+        counts[KINDS[kind]] = [Number(number, "claims", column, counted=word, origin=place) for word, number in numbers]
+    return counts
+
+
+def failures(results):
+    """Return the numbers that the page states about the stress tests of all methods (robustness.failure_map).
+
+    cases : number of stress tests
+    unnoticed : number of results that are wrong without a warning
+    warned : number of results that are wrong, but come with a warning
+    stated : number of results of models that are wrong outside their documented range, without a warning
+    worst_model : largest finite error of an approximate model that warned or was used outside its documented range
+    methods : {method: {verdict: number of stress tests}}
+    """
+    table = results.tables["failure_map"]
+    outside = table[table["method"].isin(MODELS) & table["verdict"].isin(["stated", "warned"])]
+    return {
+        # each method has one row per stress test
+        "cases": results.count("failure_map", "method", table["method"].iloc[0]),
+        **{name: results.count("failure_map", "verdict", name) for name in ("unnoticed", "warned", "stated")},
+        "worst_model": results.extremes(outside[np.isfinite(outside["error"])], "failure_map", "error")[1],
+        "methods": {name: Counter(rows["verdict"]) for name, rows in table.groupby("method", sort=False)},
+    }
 
 
 def other_solvers(path):

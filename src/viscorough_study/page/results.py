@@ -6,11 +6,9 @@ and the Snakemake rule that made the table, with its script. A reader or a test 
 
 from dataclasses import dataclass, field
 
-import pandas as pd
-
 from viscorough_study.run.tables import read_table, split_table
 
-MAY_BE_EMPTY = ("convention", "reason", "setting")  # columns of texts; some of these texts may be empty
+MAY_BE_EMPTY = ("reading", "note", "reason", "setting")  # columns of texts; some of these texts may be empty
 # With these options, pandas.read_csv replaces only empty fields by nan, and keeps texts such as "none".
 _ONLY_EMPTY_IS_MISSING = {"keep_default_na": False, "na_values": [""]}
 
@@ -112,11 +110,6 @@ def read_results(tables, made_by):
     settings = {name: header.get("made_with", {}).get("settings", {}) for name, header in headers.items()}
     read = {name: read_table(path, **_ONLY_EMPTY_IS_MISSING) for name, path in tables.items()}
     return Results({name: _with_empty_texts(table) for name, table in read.items()}, settings, made_by)
-
-
-def read_published(path):
-    """Read a CSV file of published results; empty fields are "" in columns of texts, and nan in other columns."""
-    return _with_empty_texts(pd.read_csv(path, **_ONLY_EMPTY_IS_MISSING))
 
 
 def _with_empty_texts(table):

@@ -1,4 +1,4 @@
-"""Read data in resources/ of the project: laws, numbers, claims and sentences of the paper, and published tables."""
+"""Read data in resources/ of the project: laws and numbers of the paper, and published tables."""
 
 import csv
 from pathlib import Path
@@ -9,7 +9,7 @@ import yaml
 def read_paper(folder, name):
     """Return the content of a YAML file in a folder.
 
-    name : "laws", "numbers", "claims" or "sentences", the name of the file without suffix
+    name : "laws" or "numbers", the name of the file without suffix
     """
     return yaml.load((Path(folder) / f"{name}.yaml").read_text(encoding="utf-8"), yaml.CSafeLoader)
 

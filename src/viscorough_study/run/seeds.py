@@ -110,10 +110,10 @@ def size_control_key(hurst, elements):
     return _key(13, _millionths(hurst), elements)
 
 
-def plateau_key(hurst, group):
-    """Return the spawn key of the bootstrap and of the synthetic ensembles in the test for a power law.
+def local_slope_key(hurst, group):
+    """Return the spawn key of the bootstrap for the local slope within region (b).
 
-    group : group of the discs, "base" or the name of the control
+    group : group of the discs, such as "base" or the name of the control
     """
     return _key(14, _millionths(hurst), zlib.crc32(group.encode()))
 

@@ -24,7 +24,6 @@ REALIZATIONS = whole(2, 10_000)
 BATCH = whole(1, 10_000)
 X = real(1e-15, 1e4)
 TEN_TIMES = "at least ten times"
-PLATEAU = "`verdicts.plateau_range` and half a slope's width"
 
 
 class Combination(Section):
@@ -77,7 +76,6 @@ class Discs(Section):
     )
     short_until_x: real(above=0, high=1e4) = meaning(
         "X at which the curves of further realizations end",
-        also=f"at least {PLATEAU}",
     )
     batch: BATCH = meaning(
         "realizations of every combination in a job; at most these are lost when it is killed. A change alters no "
@@ -168,7 +166,7 @@ class Indentation(Section):
     until_fraction: real(1e-6, 1) = meaning("share of the elements in contact at which a curve ends")
     until_x: real(1e-14, 1e4) = meaning(
         "X = F/(4GhL) at which a curve ends if it is reached first; h is the larger of the two rms heights",
-        also=f"{TEN_TIMES} `ensemble.x_low`, at least {PLATEAU}",
+        also=f"{TEN_TIMES} `ensemble.x_low`",
     )
 
 
@@ -187,8 +185,8 @@ class Lines(Section):
 class Ensemble(Section):
     """Abscissae X common to all curves."""
 
-    x_low: X = meaning("lowest abscissa X = F/(4GhL) = Ft/(4ηhL)", also=f"at most {PLATEAU}")
-    x_high: X = meaning("highest abscissa", also=f"{TEN_TIMES} `x_low`, at least {PLATEAU}")
+    x_low: X = meaning("lowest abscissa X = F/(4GhL) = Ft/(4ηhL)")
+    x_high: X = meaning("highest abscissa", also=f"{TEN_TIMES} `x_low`")
     per_decade: whole(2, 200) = meaning("abscissae per decade; their decimal logarithms are multiples of 1/per_decade")
 
 
@@ -246,27 +244,6 @@ class Periodic(Section):
     x_low: real(1e-15, 1000) = meaning("lowest X = (π/4) p L/(E* h) of the levels")
     x_high: real(1e-15, 1000) = meaning("highest X of the levels", also=f"{TEN_TIMES} `x_low`")
     per_decade: whole(2, 100) = meaning("levels per decade of X")
-
-
-class Verdicts(Section):
-    """Settings of verdicts, in addition to the tolerances of the claims."""
-
-    decades_min: real(above=0, high=10, unit="decades") = meaning(
-        "decades of X over which the local slope must be constant to count as a power law; two are the usual minimum "
-        "(Stumpf & Porter, Science 335, 665 (2012)), and every curve that bends upwards at both ends is straight over "
-        "more than one"
-    )
-    plateau_range: several(real(above=0, high=100), 2, 2) = meaning(
-        "lower and upper X between which these decades are sought",
-        also="at least a decade apart",
-    )
-    draws: whole(1, 100_000) = meaning(
-        "number of synthetic ensembles of each kind; they show how often the test accepts power laws, and other curves"
-    )
-    end_decades: real(above=0, high=2, unit="decades") = meaning(
-        "interval of X at the end of a curve over which the slope of region (c) is fitted",
-        also="at least 1/`ensemble.per_decade`",
-    )
 
 
 class Figures(Section):
@@ -547,7 +524,6 @@ class Settings(Section):
     scaling: Scaling
     interface: Interface
     periodic: Periodic
-    verdicts: Verdicts
     figures: Figures
     validation: Validation
     direct: Direct

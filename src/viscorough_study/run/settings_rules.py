@@ -19,7 +19,6 @@ _RANGES = [
     ("ensemble.x_low", "indentation.until_x", 10),
     ("ensemble.x_low", "sizes.until_x", 10),
     ("ensemble.x_low", "discs.longer_period.until_x", 10),
-    ("verdicts.plateau_range.0", "verdicts.plateau_range.1", 10),
     ("scaling.stiffness_range.0", "scaling.stiffness_range.1", 1.01),
 ]
 
@@ -100,30 +99,11 @@ def _range_name(low, high):
 
 
 def _too_narrow_slope(settings):
-    per_decade = settings.ensemble.per_decade
-    for path in (["scaling", "slope_half_width"], ["verdicts", "end_decades"]):
-        if (width := _value(settings, path)) * per_decade < 1 - 1e-9:
-            allowed = f"from 1/per_decade of ensemble, {1 / per_decade:.4g}"
-            fault = f"{name_of(path)}: {width:g} decades hold no further abscissa"
-            yield [path, ["ensemble", "per_decade"]], f"{fault}; allowed: {allowed}"
-
-
-def _too_few_abscissae(settings):
-    """Yield contradictions if a local slope in verdicts.plateau_range would need X that are not computed."""
-    reach = 10**settings.scaling.slope_half_width
-    low, high = settings.verdicts.plateau_range[0] / reach, settings.verdicts.plateau_range[1] * reach
-    for path in (["discs", "short_until_x"], ["indentation", "until_x"], ["ensemble", "x_high"]):
-        if (end := _value(settings, path)) < high:
-            yield _missing_part(path, ["verdicts", "plateau_range", 1], end, f"from {high:.4g}")
-    if (start := settings.ensemble.x_low) > low:
-        yield _missing_part(["ensemble", "x_low"], ["verdicts", "plateau_range", 0], start, f"up to {low:.4g}")
-
-
-def _missing_part(path, end_of_range, x, allowed):
-    fault = (
-        f"{name_of(path)}: curves that end at X = {x:g} miss a part of verdicts.plateau_range and half a slope's width"
-    )
-    return [path, end_of_range], f"{fault}; allowed: {allowed}"
+    per_decade, path = settings.ensemble.per_decade, ["scaling", "slope_half_width"]
+    if (width := settings.scaling.slope_half_width) * per_decade < 1 - 1e-9:
+        allowed = f"from 1/per_decade of ensemble, {1 / per_decade:.4g}"
+        fault = f"{name_of(path)}: {width:g} decades hold no further abscissa"
+        yield [path, ["ensemble", "per_decade"]], f"{fault}; allowed: {allowed}"
 
 
 def _window_outside(settings):
@@ -185,7 +165,6 @@ _RULES = (
     _too_short_wave,
     _empty_range,
     _too_narrow_slope,
-    _too_few_abscissae,
     _window_outside,
     _wrong_medium,
     _empty_crop,

@@ -6,11 +6,11 @@ import pytest
 import yaml
 from scipy.integrate import quad
 from scipy.special import erf
+from viscorough_study.page.discussion import KNOWN, QUANTITIES
 
 from support.study import HURST, ROOT, SHOWN, evidence
 from viscorough import reference
 from viscorough_study.comparisons.literature import COLUMNS, literature, persson_u0
-from viscorough_study.page.discussion import KNOWN, QUANTITIES
 
 ENTRIES = yaml.safe_load((ROOT / "resources/literature/stiffness.yaml").read_text(encoding="utf-8"))
 INTERFACE = pd.DataFrame(

@@ -66,6 +66,7 @@ def drawn(discs, pooled, lines, scaling):
         "fig1_surfaces": ([(h, heights, 1 / 9) for h in (0.1, 0.5, 0.9)],),
         "fig2_kinetics": (discs, tables.CASES, scaling, SHOWN),
         "fig3_master_curve": (pooled, pooled[:1], lines, scaling, SHOWN),
+        "regions": (pooled, pooled[:1], tables.slopes_table()),
         "measured": ({"polished": pooled[0]}, pooled, group, tables.measured_kinetics(), SHOWN),
     }
     shares = {name: {"fraction_min": 0.95} for name, rule in FIGURES.items() if "fraction_min" in RULES[rule]}

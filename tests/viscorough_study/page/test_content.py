@@ -1,16 +1,14 @@
 """Content of the page about the scale, the methods and other solvers."""
 
 import json
-from itertools import chain
 
 import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
 
-from support.study import CLAIMS, NUMBERS, ROOT
-from viscorough_study.page.answers import failures
-from viscorough_study.page.content import measured, media, scale, verdicts
+from support.study import NUMBERS, ROOT
+from viscorough_study.page.content import claims, failures, findings, in_short, measured, media, scale, verdict_counts
 from viscorough_study.page.results import Results
 
 
@@ -52,16 +50,37 @@ def test_numbers_stand_in_the_rows_for_which_they_are_shown():
     fits.loc[2, "average"] = "arithmetic"
     tables = {"measured_fits": fits, "measured_scans": pd.DataFrame({"file": ["g"]})}
     tables |= {"measured_contacts": pd.DataFrame({"file": ["g", "g"], "normal_force": [0.1, 0.2]})}
-    results = Results(tables | {"claims": pd.read_csv(ROOT / "docs/claims.csv")}, {})
-    for claim in chain(*verdicts(results, CLAIMS, results.tables["claims"]).values()):
-        shown = results.tables["claims"].loc[[case["value"].row for case in claim["cases"]]]
-        assert set(shown["claim"]) == {claim["name"]}
-        assert shown["case"].tolist() == [case["case"] for case in claim["cases"]]
+    results = Results(tables, {})
     rows_of_scans = measured(results, conventions)
     assert rows_of_scans["scans"] == [{"file": "g"}]
     assert [(row["file"], row["normal_force"].value) for row in rows_of_scans["contacts"]] == [("g", 0.1), ("g", 0.2)]
     assert [(row["case_group"], row["beta"].value) for row in rows_of_scans["groups"]] == [("j", 0.1), ("k", 0.2)]
     assert measured(Results({}, {}), conventions) == {"scans": [], "contacts": [], "groups": []}
+
+
+CLAIMS = pd.read_csv(ROOT / "docs/claims.csv").fillna({"reading": "", "note": ""})
+PUBLISHED = Results({"claims": CLAIMS}, {})
+
+
+def test_every_case_is_shown_once_in_each_reading():
+    shown = claims(PUBLISHED)
+    rows = [row["value"].row for claim in shown for case in claim["cases"] for row in case["readings"].values()]
+    assert sorted(rows) == CLAIMS.index.tolist()
+    for claim in shown:
+        for case in claim["cases"]:
+            for reading, row in case["readings"].items():
+                assert (row["claim"], row["case"], row["reading"]) == (claim["claim"].name, case["name"], reading)
+                assert case["expected"].value == pytest.approx(row["expected"].value, nan_ok=True)
+
+
+def test_findings_hold_every_claim_but_identities_and_own_claims_are_in_short():
+    shown = claims(PUBLISHED)
+    grouped = [claim["claim"].name for figure, members in findings(shown) for claim in members]
+    assert sorted(grouped) == sorted(c["claim"].name for c in shown if c["claim"].kind != "identity")
+    assert all(claim["claim"].figure == figure for figure, members in findings(shown) for claim in members)
+    short = [claim["claim"].name for _, members in in_short(shown) for claim in members]
+    assert sorted(short) == sorted(c["claim"].name for c in shown if c["claim"].kind == "own")
+    assert [sum(number.value for number in counts) for counts in verdict_counts(PUBLISHED).values()] == [15, 5]
 
 
 def test_worst_error_of_the_models_is_a_stated_error():
@@ -71,37 +90,6 @@ def test_worst_error_of_the_models_is_a_stated_error():
     assert content["worst_model"].value == 0.3
     assert (content["cases"].value, content["warned"].value, content["unnoticed"].value) == (2, 2, 0)
     assert content["methods"]["MDR"] == {"stated": 1, "holds": 1}
-
-
-def claims_table(*verdicts_of_cases):
-    """Return cases of the claim on β with these verdicts, with values ever farther from the paper's."""
-    table = pd.DataFrame({"verdict": verdicts_of_cases}).assign(
-        claim="beta", kind="physics", origin="own", where="Eq. 5"
-    )
-    table = table.assign(case=[f"H = {i}" for i in range(len(table))], convention="", criterion="it is", reason="it is")
-    table = table.assign(quantity="β", **dict.fromkeys(("conventions", "agreeing", "contradicting"), np.nan))
-    numbers = dict.fromkeys(("low", "high", "least", "largest", "tolerance"), 0.1) | {"expected": 0.0}
-    return table.assign(value=0.1 * table.index, **numbers)
-
-
-def test_shown_case_has_the_verdict_of_the_claim_and_is_farthest():
-    table = claims_table("reproduced", "undecided", "undecided", "reproduced")
-    ((claim,),) = verdicts(Results({"claims": table}, {}), CLAIMS, table).values()
-    assert (claim["verdict"], claim["deciding"]["case"]) == ("undecided", "H = 2")
-    assert [case["value"].row for case in claim["cases"]] == [0, 1, 2, 3]
-    table["expected"] = np.nan
-    ((claim,),) = verdicts(Results({"claims": table}, {}), CLAIMS, table).values()
-    assert claim["deciding"]["case"] == "H = 1"
-
-
-def test_verdict_that_differs_at_full_scale_is_shown_with_its_case():
-    table, full = claims_table("undecided", "reproduced"), claims_table("undecided", "not reproduced")
-    ((claim,),) = verdicts(Results({"claims": table}, {}), CLAIMS, full).values()
-    assert claim["full_scale"]["verdict"] == "not reproduced"
-    assert claim["full_scale"]["case"].startswith("H = 1: 0.1 [0.1, 0.1], least 0.1")
-    for published in (table, full.assign(claim="renamed")):
-        ((claim,),) = verdicts(Results({"claims": table}, {}), CLAIMS, published).values()
-        assert claim["full_scale"] is None
 
 
 def test_media_have_exponents_at_both_ends_and_near_x_0_01():

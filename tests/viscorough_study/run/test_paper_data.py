@@ -2,31 +2,14 @@
 
 import yaml
 
-from support.study import CLAIMS, NUMBERS, ROOT
-from viscorough_study.run.paper_data import read_paper, read_records
+from support.study import NUMBERS, ROOT
+from viscorough_study.run.paper_data import read_records
 
 
 def test_every_number_states_its_place_in_the_paper():
     for section in NUMBERS.values():
         for entry in section.values():
             assert {"value", "where"} <= set(entry)
-
-
-def test_numbers_and_claims_agree():
-    elements = NUMBERS["boundary_elements"]["elements"]["value"]
-    assert elements == 51432
-    assert str(elements) in CLAIMS["elements"]["statement"]
-    assert f"{NUMBERS['agreement']['beta_hurst_min']['value']:g}" in CLAIMS["beta"]["statement"]
-
-
-def test_every_sentence_has_claims_or_a_reason_for_none():
-    sentences = read_paper(ROOT / "resources/paper", "sentences")
-    assert {sentence["origin"] for sentence in sentences} == {"own", "quoted", "background"}
-    for sentence in sentences:
-        assert sentence["claims"] or sentence["why"], sentence["says"]
-        assert set(sentence["claims"]) <= {name for name, claim in CLAIMS.items() if claim["kind"] != "beyond"}
-    judged = {name for sentence in sentences for name in sentence["claims"]}
-    assert judged == {name for name, claim in CLAIMS.items() if claim["kind"] != "beyond"}
 
 
 def test_settings_of_the_paper_agree_with_its_numbers():

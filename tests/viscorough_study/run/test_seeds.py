@@ -19,7 +19,7 @@ KEYS = {
     seeds.gamma_factor_key(0.4): (11, 400000),
     seeds.mdr_comparison_key(0.4, 3): (12, 400000, 3),
     seeds.size_control_key(0.4, 65): (13, 400000, 65),
-    seeds.plateau_key(0.4, "base"): (14, 400000, zlib.crc32(b"base")),
+    seeds.local_slope_key(0.4, "base"): (14, 400000, zlib.crc32(b"base")),
     seeds.periodic_key(0.4, 3): (15, 400000, 3),
     seeds.law_disc_key(0.4, 65, 3): (16, 400000, 65, 3),
     seeds.one_surface_key(0.4, 3): (18, 400000, 3),

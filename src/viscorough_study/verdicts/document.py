@@ -1,0 +1,89 @@
+"""Write the verdicts on all claims as a page of the documentation, in Markdown (docs/verdicts.md)."""
+
+import numpy as np
+
+from viscorough_study.verdicts.claim import KINDS
+from viscorough_study.verdicts.claims import AFTER_THE_FACT, CLAIMS, counted_verdicts, verdicts_of
+
+HEAD = f"""\
+# Verdicts on the paper's claims
+
+These are the verdicts of the default run, `make reproduce`. [claims.csv](claims.csv) is the full table. Symbols are
+defined in [Theory](theory.md#symbols); numbers in brackets are 95 % intervals.
+
+A claim has one or several *cases*, such as one for each Hurst exponent. A case *holds* if the whole 95 % interval of
+its number lies within the tolerance, it does *not* hold if the whole interval lies outside, and it is *undecided*
+otherwise. A claim holds *in part* if some of its cases hold and others do not; otherwise it has the worst verdict of
+its cases.
+
+The paper does not say how its discs were made. Claims that depend on this are judged in two *readings*. In *A* the
+spectrum has the period *L*, the diameter, and *h* is the rms height of the disc. In *B* the disc is cut from a square
+of twice its diameter, and *h* is the rms height of the square. If both readings give the same verdict, this is the
+verdict. If the claim holds in one of them, it *holds in A* or *holds in B*. Otherwise the better verdict counts, with
+the reading named. Reading A was chosen first. A verdict that rests on B was {AFTER_THE_FACT}.
+Lines of the method of dimensionality reduction (MDR) are compared with reading A.
+
+Two rules make a verdict independent of the surfaces that happen to be drawn. A case fails only if its interval lies
+outside even when it is widened so that the intervals of all cases of the claim hold together at 95 % (Bonferroni).
+With fewer realizations than the 80 that the paper averages, a verdict must hold with intervals twenty times as wide
+(Chebyshev's inequality); otherwise the case is undecided.
+
+No tolerance was registered before the first results were computed. Only the text of the paper was available, not its
+figures: a tolerance that rests on the look of a printed figure is an assumption, and says so. Means are geometric means
+over the surfaces at fixed *X*, and fits extend over region (b).
+"""
+
+
+def document(table, fine_grids):
+    """Return the page.
+
+    table : table of verdicts (verdicts.claims.judge)
+    fine_grids : sentence on the exponent on fine grids (viscorough_study.fits.fine_sentence)
+    """
+    parts, verdicts = [HEAD, *_counts(table), f"{fine_grids}\n"], verdicts_of(table)
+    present = [claim for claim in CLAIMS if claim.name in verdicts]
+    for kind, heading in KINDS.items():
+        claims = [claim for claim in present if claim.kind == kind]
+        if claims:
+            lines = [f"## {heading}\n", "| claim | A | B | verdict |", "|---|---|---|---|"]
+            lines += [_line(claim, verdicts[claim.name]) for claim in claims]
+            parts.append("\n".join(lines) + "\n")
+    parts.append("## Numbers, criteria and tolerances\n")
+    parts += [_section(claim, verdicts[claim.name], table[table["claim"] == claim.name]) for claim in present]
+    return "\n".join(parts)
+
+
+def _counts(table):
+    """Return a paragraph on how many claims have which verdict, for each kind of claim that is counted."""
+    for kind in ("own", "quoted"):
+        if counts := counted_verdicts(table, kind):
+            yield f"{KINDS[kind]}: {counts_text(counts)}.\n"
+
+
+def counts_text(counts):
+    """Return numbers of verdicts as text, such as "holds: 6; not: 3"; counts : result of `counted_verdicts`"""
+    return "; ".join(f"{word}: {number}" for word, number in counts)
+
+
+def _line(claim, verdict):
+    in_a, in_b = ("", "") if "" in verdict.columns else (verdict.columns.get(reading, "–") for reading in ("A", "B"))
+    return f"| {claim.title} ([{claim.name}](#{claim.name}), {claim.where}) | {in_a} | {in_b} | {verdict.text} |"
+
+
+def _section(claim, verdict, rows):
+    """Return what is said about a claim, and the numbers of its cases."""
+    tolerance = f" Tolerance {claim.tolerance:g}: {claim.stated_reason}." if claim.tolerance else ""
+    lines = [f"### {claim.name}\n", f"{claim.where}: {claim.sentence}. **{verdict.text}**\n"]
+    lines += [f"Holds if {claim.criterion}.{tolerance} {claim.remark}".rstrip() + "\n"]
+    for reading, cases in rows.groupby("reading", sort=False):
+        numbers = "; ".join(f"{row['case']}: {value_text(row)}" for row in cases.to_dict("records"))
+        lines.append(f"{claim.quantity}{f' in {reading}' * bool(reading)}: {numbers}.\n")
+    return "\n".join(lines)
+
+
+def value_text(row):
+    """Return the value in a row of the table of verdicts as text, with its interval."""
+    if not np.isfinite(row["value"]):
+        return "no value"
+    ends = f" [{row['low']:.3g}, {row['high']:.3g}]" if np.isfinite(row["low"]) else ""
+    return f"{row['value']:.3g}{ends}"

@@ -18,7 +18,7 @@ from viscorough.basics.arrays import whole_number
 from viscorough.basics.errors import AccuracyWarning
 from viscorough.basics.types import Array, FilePath
 from viscorough.io.atomic import Refused, path_named, reading
-from viscorough.io.matrices import delimiter_of, is_text, lines_of, number_of
+from viscorough.io.matrices import delimiter_of, is_text, lines_of, number_of, refuse_decimal_commas
 from viscorough.media.load import Load
 
 # Negative forces down to this share of the largest force count as noise of the force sensor before or after contact.
@@ -122,6 +122,8 @@ def _read(
     else:
         places, factors = [columns[name] - 1 for name in wanted], [1.0, 1.0]
         width = len(rows[0])
+        if delimiter == ",":
+            refuse_decimal_commas([",".join(cells) for cells in rows])
         if max(places) >= width:
             raise Refused(f"{argument('columns')} {max(places) + 1}: line {first} has {width} columns")
         if any(re.search(r"[^\W\d]", re.sub(r"(?i)nan|\de[-+]?\d", "", rows[0][place])) for place in places):

@@ -34,7 +34,7 @@ _MOST_OF_TABLES = 6
 # A table of points has more than this many times as many rows as columns.
 _ELONGATION = 4
 # A row or column at the edge holds positions if at least this many numbers rise or fall in equal steps.
-_LEAST_LABELS = 5
+_LEAST_LABELS = 4
 # Steps are equal if they differ from their mean by at most this share, as rounding of positions can cause.
 _UNEVENNESS = 0.02
 # A .npy array of three columns holds points x, y, z if it has at least this many rows.
@@ -126,10 +126,18 @@ def _table(rows: Sequence[str], first: int) -> Array:
             values.append([float(cell) for cell in cells])
         except ValueError:
             values.append([number_of(cell, number) for cell in cells])  # raises an error for the cell
-    joined = "\n".join(rows)
-    if delimiter == "," and "." not in joined and re.search(r",\s", joined) and re.search(r",\S", joined):
-        raise Refused("commas with and without spaces behind them; points as decimal marks are needed")
+    if delimiter == ",":
+        refuse_decimal_commas(rows)
     return np.array(values)
+
+
+def refuse_decimal_commas(rows: Sequence[str]) -> None:
+    """Raise ValueError if the commas in rows without points may be decimal marks as well as delimiters."""
+    cells = [row.split(",") for row in rows]
+    fractions = [fraction.strip() for row in cells for fraction in row[1::2]]
+    in_pairs = len(cells[0]) % 2 == 0 and len(cells[0]) > 2 and all(map(str.isdecimal, fractions))
+    if in_pairs and not any("." in row for row in rows):
+        raise Refused("its commas may be decimal marks; another delimiter, and points as decimal marks, are needed")
 
 
 def number_of(cell: str, line: int) -> float:
@@ -157,8 +165,9 @@ def _refuse_tables(table: Array, name: str, delimiter: str | None) -> None:
             f"a table of {rows} by {columns} may hold points or a profile; {reads}, and .npy maps of any shape"
         )
     for vectors, edge in ((table.T, "column"), (table, "row")):
-        if _is_even(vectors[0, 1:]) and not _is_even(vectors[1, 1:]):
-            raise Refused(f"the first {edge} rises or falls evenly, as positions do; heights alone are needed")
+        for start in (0, 1):  # the corner of a table with positions along both edges may hold any number
+            if _is_even(vectors[0, start:]) and not _is_even(vectors[1, start:]):
+                raise Refused(f"the first {edge} rises or falls evenly, as positions do; heights alone are needed")
 
 
 def _is_even(values: Array) -> bool:

@@ -16,24 +16,13 @@ from viscorough.io.suffixes import FIGURES, check_suffix
 # Metadata of figures have no dates, so that the same result gives the same file.
 _METADATA: dict[str, Any] = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
 _STYLE: dict[Any, Any] = {"font.size": 9, "savefig.dpi": 200, "svg.hashsalt": "viscorough"}
-_SIZE = (4.6, 3.6)  # in inches
-# Quantities that are drawn, {name of the variable: name of its axis}. With the shear modulus, forces are F instead of
-# F/G, and pressures p instead of p/G.
-_AXES = {
-    "heights": "height",
-    "pressure": "pressure p/G",
-    "normal_pressure": "pressure p",
-    "force": "force F/G",
-    "normal_force": "force F",
-}
+# Names of axes. With the shear modulus, forces are F instead of F/G, and pressures p instead of p/G.
+_AXES = {"heights": "height", "pressure": "pressure p/G", "normal_pressure": "pressure p"}
+_AXES |= {"force": "force F/G", "normal_force": "force F"}
+# The first of these maps that a file holds is drawn, or the first of these curves: (abscissa, ordinate, scale).
 _MAPS = ("normal_pressure", "pressure", "heights")
-# Quantities of curves as (abscissa, ordinate, scale of both axes); the first that is in a file is drawn.
-_CURVES = (
-    ("time", "depth", "linear"),
-    ("depth", "normal_force", "log"),
-    ("depth", "force", "log"),
-    ("x", "heights", "linear"),
-)
+_CURVES = [("time", "depth", "linear"), ("depth", "normal_force", "log"), ("depth", "force", "log")]
+_CURVES += [("x", "heights", "linear")]
 
 
 def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
@@ -44,8 +33,7 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
     result : Content or Indenter or LoadingCurve or Contact or Motion or Estimate
         Result of the library, or the io.netcdf.Content of a file. Needs matplotlib: pip install "viscorough[plot]".
     path : path, optional
-        File to write atomically (.png, .pdf or .svg). The same result gives the same bytes. By default no file is
-        written.
+        File to write atomically (.png, .pdf or .svg). The same result gives the same bytes. By default none is written.
 
     Returns
     -------
@@ -69,7 +57,7 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
     suffix = "" if path is None else check_suffix(path, FIGURES)
     variables = (result if isinstance(result, Content) else to_content(result)).variables
     with mpl.rc_context(_STYLE):
-        figure = Figure(figsize=_SIZE, layout="constrained")
+        figure = Figure(figsize=(4.6, 3.6), layout="constrained")
         axes = figure.subplots()
         maps = [name for name in _MAPS if name in variables and variables[name].dimensions[-2:] == ("y", "x")]
         curves = [each for each in _CURVES if set(each[:2]) <= set(variables)]
@@ -87,15 +75,13 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
 
 def _draw_map(figure: Figure, axes: Axes, variables: dict[str, Variable], name: str) -> None:
     """Draw a map, grey outside the indenter; of several maps, the last."""
-    shape = variables[name].values.shape[-2:]
-    values = variables[name].values.reshape(-1, *shape)[-1]
+    values = variables[name].values.reshape(-1, *variables[name].values.shape[-2:])[-1]
     ends: list[float] = []
     for position in (variables["x"].values, variables["y"].values):
         half = (position[-1] - position[0]) / max(len(position) - 1, 1) / 2 or 0.5
         ends += [position[0] - half, position[-1] + half]
     left, right, top, bottom = ends  # the first row is at the top
-    colours = "cividis" if name == "heights" else "inferno"
-    image = axes.imshow(values, origin="upper", extent=(left, right, bottom, top), cmap=colours)
+    image = axes.imshow(values, origin="upper", extent=(left, right, bottom, top))
     axes.set_facecolor("0.85")
     axes.set(xlabel=_label(variables, "x"), ylabel=_label(variables, "y"))
     figure.colorbar(image, ax=axes, label=_label(variables, name))

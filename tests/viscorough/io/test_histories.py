@@ -107,6 +107,8 @@ def test_columns_of_a_file_without_headings_are_chosen_by_number(history):
     ):
         with refused(what):
             history("5,0,1\n6,2,3\n", columns=columns)
+    with refused("its commas may be decimal marks"):
+        history("0,5,1,968\n1,5,2,75\n", columns={"time": 1, "force": 3})
     with refused(
         r"line 1 is a heading, with columns; name its columns time \(s\) and force \(N\), or remove the heading"
     ):

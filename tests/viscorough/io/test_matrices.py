@@ -51,7 +51,8 @@ def test_comments_may_have_any_encoding(tmp_path, encoding):
         (text(" ").replace(".", ","), "which is no number; one delimiter, and points as decimal marks"),
         (text(";").replace(".", ","), "';' and ',' in one row; one delimiter, and points as decimal marks"),
         (text("\t").replace(".", ","), "one delimiter, and points as decimal marks"),
-        ("1,5, 2,5, 3,5, 4,5\n" * 4, "commas with and without spaces behind them"),
+        ("1,5, 2,5, 3,5, 4,5\n" * 4, "its commas may be decimal marks"),
+        ("1,5,-2,5,3,05,4,5\n" * 4, "its commas may be decimal marks"),
         (text(",").replace("nan", ""), "line 2 has an empty cell; .* nan if one is missing"),
         (text(",").replace("\n", ",\n"), "line 1 has an empty cell"),
         ("\t1\t2\t3\n4\t5\t6\t\n" * 2, "line 1 has an empty cell"),
@@ -95,6 +96,7 @@ GRID = np.array([[x, y, 10 * y + x] for y in (0, 2, 4) for x in (1.0, 2, 3, 4)])
         (GRID.T, "may hold points or a profile"),
         (GRID[:, :2], "a table of 12 by 2 may hold points or a profile; read_line reads a profile"),
         (np.column_stack([np.arange(6), np.random.default_rng(1).random((6, 6))]), "the first column rises or falls"),
+        (np.column_stack([np.arange(4), np.random.default_rng(1).random((4, 6))]), "the first column rises or falls"),
         (np.vstack([-0.5 * np.arange(7), np.random.default_rng(1).random((6, 7))]), "the first row rises or falls"),
     ],
 )

@@ -86,7 +86,7 @@ def row_of_springs(curve: LoadingCurve, load: Load | None = None) -> RowOfSpring
     if new.size:
         place = np.searchsorted(depth, new)
         at_new = zero_of_increasing(lambda force: curve.at_force(force)[0] - new, *curve.force[[0, -1]])
-        count = np.insert(count, place, np.interp(new, depth, count))
+        count = np.insert(count, place, elements_in_contact(curve, new))
         depth, force = np.insert(depth, place, new), np.insert(force, place, at_new)
     kept = _below_all(depth, force)
     depth, force, count = depth[kept], force[kept], count[kept]

@@ -323,7 +323,7 @@ class MediumCase(Section):
         "shear modulus of `standard_linear_solid` at t = 0", None
     )
     relaxed_modulus: real(0, 1e30, unit="Pa") = meaning(
-        "shear modulus of `standard_linear_solid` and `prony` at t → ∞", None
+        "shear modulus of `standard_linear_solid` and `prony` at t → ∞", None, also="0 for `prony` only"
     )
     relaxation_time: real(**POSITIVE, unit="s") = meaning("relaxation time of `standard_linear_solid`", None)
     moduli: several(real(**POSITIVE, unit="Pa"), 1, 100) = meaning("shear moduli of the branches of `prony`", None)

@@ -142,6 +142,7 @@ speed stability: SETTINGS = config/methods.yaml
 speed: environment
 	$(SNAKEMAKE) -- speed
 	$(BIN)/python benchmarks/solver_race.py --output results/tables/other_solvers.csv
+	$(BIN)/python benchmarks/second_solver.py --output results/tables/second_solver.csv
 
 stability: environment
 	$(SNAKEMAKE) -- stability

@@ -61,6 +61,7 @@ KEPT = {
         "tables/calibration.csv": "src/viscorough/law/data/calibration.csv",
     },
     "fine-grids": {"tables/fine_exponents.csv": "resources/published/fine_exponents.csv"},
+    "speed": {"tables/second_solver.csv": "resources/published/second_solver.csv"},
     "law": {"tables/law.csv": "src/viscorough/law/data/law.csv"},
     "reproduce": {
         "tables/rule_costs.csv": DEFAULT_COSTS,

@@ -78,6 +78,7 @@ def contents_of(project, discs, lines, *, tables, numbers, made_by, changed, fil
         "failures": content.failures(results),
         "outcomes": OUTCOMES,
         "other": content.other_solvers(project / "resources/published/other_solvers.csv"),
+        "second": content.second_solver(project / "resources/published/second_solver.csv"),
         "media": content.media(results),
         "measured": content.measured(results, conventions),
         "changed": {name: [content.as_yaml(value) for value in pair] for name, pair in changed.items()},

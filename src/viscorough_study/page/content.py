@@ -118,6 +118,18 @@ def other_solvers(path):
     return {"versions": versions, "rows": rows, **table[["measured", "machine"]].iloc[0]}
 
 
+def second_solver(path):
+    """Return the largest differences between the curves of this package and of another solver.
+
+    force, beta, zeta : largest differences of the forces (relative), of β, and of ζ (relative)
+    discs : number of discs for each Hurst exponent
+    path : CSV file of the published comparison (benchmarks/second_solver.py)
+    """
+    table = pd.read_csv(path)
+    differences = {name: table[f"{name}_difference"].abs().max() for name in ("force", "beta", "zeta")}
+    return differences | table[["solver", "version", "discs"]].iloc[0].to_dict()
+
+
 def media(results):
     """Return the local exponent d ln(vt/h)/d ln t, for each medium and Hurst exponent, at three times.
 

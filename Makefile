@@ -39,12 +39,13 @@ endif
 # the packages of the first one.
 MOVED := $(if $(wildcard .venv/lock-installed),$(shell grep -qsF "$$(pwd -P)/.venv/bin/python" .venv/bin/pip || echo moved))
 
-.PHONY: help environment environment-dev environment-slurm reproduce paper report check lint ready-to-test test test-all docs test-slurm bench \
+.PHONY: help environment environment-dev environment-slurm reproduce beyond paper report check lint ready-to-test test test-all docs test-slurm bench \
 	speed stability fine-grids law law-errors large publish peers lock lock-dev lock-peers lock-slurm clean
 
 help:
 	@echo "make reproduce     the default reproduction, with the page results/index.html"
-	@echo "make paper         a larger run, with twice as many surfaces as the paper"
+	@echo "make beyond        what goes beyond the paper, with the page results/beyond.html"
+	@echo "make paper         a larger run of both, with twice as many surfaces as the paper"
 	@echo "make report        results/report.html of the existing results"
 	@echo "make speed | stability             larger versions of parts of the run"
 	@echo "make fine-grids    exponents on grids of up to 4097 elements across; 40 minutes"
@@ -92,14 +93,20 @@ environment-slurm: .venv/slurm-installed
 	$(PIP_INSTALL) --require-hashes --no-deps -r requirements-slurm.lock
 	@touch $@
 
+TARGETS := all
 reproduce: environment
-	@$(WITH_PROGRESS) $(SNAKEMAKE) -- all
+	@$(WITH_PROGRESS) $(SNAKEMAKE) -- $(TARGETS)
+
+beyond: environment
+	@$(WITH_PROGRESS) $(SNAKEMAKE) -- beyond
 
 paper: override SETTINGS := config/paper.yaml
+paper: override TARGETS := all beyond sensitivities
 paper: reproduce
 
+# Includes what goes beyond the paper if it was made.
 report: environment
-	$(SNAKEMAKE) --report results/report.html -- all
+	$(SNAKEMAKE) --report results/report.html -- all $(patsubst results/%.html,%,$(wildcard results/beyond.html))
 
 # Written in full each time (-E): pages that are kept would hide the warnings of an earlier run.
 docs: environment-dev

@@ -1,5 +1,6 @@
 # Penetration of self-affine rough indenters into a linearly viscous half-space: the paper's figures and beyond.
-# `snakemake --cores 2` makes everything, `snakemake --cores 2 figure_4` one figure; settings are in config/.
+# `snakemake --cores 2` makes the paper's figures and verdicts, `snakemake --cores 2 figure_4` one figure, and
+# `snakemake --cores 2 beyond` what goes beyond the paper; settings are in config/.
 
 from snakemake.utils import min_version
 
@@ -48,6 +49,7 @@ include: "workflow/rules/timings.smk"
 include: "workflow/rules/verdicts.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/page.smk"
+include: "workflow/rules/beyond.smk"
 
 
 onstart:
@@ -59,7 +61,7 @@ onstart:
 
 
 rule all:
-    """Figures, tables, the comparison with exact solutions, and the page of the results."""
+    """Figures 1 to 4, the verdicts, speed against accuracy, stress tests, and the page of the results."""
     default_target: IS_DEFAULT
     input:
         rules.tabulate_rule_costs.input,

@@ -109,19 +109,18 @@ def measured_kinetics():
 def interface_curves():
     """Return curves of the published interfaces in series with a punch; the law is 2 % above them."""
     x, curves = np.geomspace(1e-3, 28, 60), []
-    for (*labels, hurst), _ in published("interface").groupby(["source", "case_group", "across", "hurst"]):
+    for (*labels, hurst), _ in published("interface").groupby(["source", "across", "hurst"]):
         law = penetration_law(hurst)
         interface = interface_velocity(x, *(getattr(law, name) for name in CONSTANTS)) / 1.02
         curve = {"x": x, "interface": interface, "interface_low": 0.9 * interface, "interface_high": 1.1 * interface}
-        curve |= dict(zip(("source", "case_group", "across"), labels, strict=True))
+        curve |= dict(zip(("source", "across"), labels, strict=True))
         curves.append(pd.DataFrame(curve).assign(hurst=hurst))
     return pd.concat(curves, ignore_index=True)
 
 
-FINE_GRIDS = judged_rows(ROOT)
 OTHER_SOLVERS = pd.read_csv(ROOT / "resources/published/other_solvers.csv").to_dict("records")
+FINE_GRIDS = judged_rows(ROOT)
 FROM_TABLES = {  # arguments of the figures that are drawn from tables alone
-    "conventions": (published("scaling"), SHOWN),
     "direct": (published("direct"),),
     "failures": (published("failure_map"),),
     "fig4_exponent": (published("scaling"), SHOWN, (0.4, 1.0), FINE_GRIDS),
@@ -131,7 +130,6 @@ FROM_TABLES = {  # arguments of the figures that are drawn from tables alone
     "mdr_lambda": (published("mdr_lambda"), published("mdr_exponents")),
     "media": (media_table(),),
     "reduction": (published("reduction"),),
-    "sizes": (published("sizes"), SHOWN),
     "speed": (published("mean_accuracy"), OTHER_SOLVERS),
     "validation": (published("validation"),),
 }

@@ -71,7 +71,7 @@ def test_costs_count_only_the_run_under_any_prefix(finished, tmp_path):
     """Benchmark files left behind by other settings or targets do not count."""
     expected = read_table(finished / "results/tables/rule_costs.csv").set_index("rule")["jobs"]
     benchmarks = finished / "results/benchmarks"
-    others = ("plot_sizes.tsv", "evaluate_measured.tsv", "earlier.tsv", "indent_surfaces/discs/h07000/0000-0001.tsv")
+    others = ("plot_media.tsv", "evaluate_measured.tsv", "earlier.tsv", "indent_surfaces/discs/h07000/0000-0001.tsv")
     for name in others:
         (benchmarks / name).parent.mkdir(exist_ok=True)
         shutil.copy(benchmarks / "judge_claims.tsv", benchmarks / name)

@@ -142,7 +142,7 @@ def test_page_compares_the_time_of_the_jobs_with_the_papers(finished_once, page)
 def test_page_lists_all_versions_that_occur_in_the_results(finished):
     """As after an upgrade of a package between two jobs."""
     pages = [(finished / "results/index.html").read_text(encoding="utf-8")]
-    path = finished / "results/tables/media.csv"
+    path = finished / "results/tables/claims.csv"
     header, rows = split_table(path)[0], read_table(path)
     header["made_with"]["versions"]["numpy"].append("99.0")
     columns = {name: (column["long_name"], column["units"]) for name, column in header.pop("columns").items()}

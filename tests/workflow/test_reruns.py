@@ -23,12 +23,10 @@ LAST = {"tabulate_rule_costs", "make_page"}  # these rules run again after any c
 BOUNDARY_ELEMENTS = {
     "indent_surfaces",
     "compare_direct",
-    "compare_reduction",
     "compare_exact",
     "measure_methods",
 }
 BOUNDARY_ELEMENTS |= {"map_failures", "measure_surfaces"}
-BOUNDARY_ELEMENTS |= {"compare_histories"}
 
 
 @pytest.fixture(scope="module")
@@ -57,30 +55,18 @@ def add_line(path, line):
     path.write_text(f"{path.read_text()}{line}\n")
 
 
-FEW_STEPS = {"media": {"force": 2e-4}, "interface": {"plateau": 0.1}}
-FEW_STEPS |= {"methods": {"levels": 3}, "validation": {"elements": [17, 31]}}
+FEW_STEPS = {"methods": {"levels": 3}, "validation": {"elements": [17, 31]}}
 FEW_STEPS |= {"stability": {"across": 11}, "direct": {"elements": 31}}
-OF_FEW_STEPS = {
-    "compute_media",
-    "fit_interface",
-    "measure_methods",
-    "compare_exact",
-}
-OF_FEW_STEPS |= {"map_failures", "compare_direct", "compare_histories"}
+OF_FEW_STEPS = {"measure_methods", "compare_exact", "map_failures", "compare_direct"}
 FITS = {"match_lambda", "compare_zeta_laws", "judge_claims"}
-OF_CONVENTIONS = FITS | {
-    "tabulate_calibration",
-    "tabulate_literature",
-    "compare_means",
-}
-OF_CONVENTIONS |= {"plot_kinetics", "plot_master_curve", "plot_exponent", "plot_conventions", "plot_sizes"}
+OF_CONVENTIONS = FITS | {"compare_means", "plot_kinetics", "plot_master_curve", "plot_exponent"}
 
 
 @pytest.mark.parametrize(
     ("changed", "directly"),
     [
         (FEW_STEPS, OF_FEW_STEPS),
-        ({"scaling": {"stiffness_max": 0.25}}, FITS | {"fit_power_laws", "fit_sizes", "fit_local_slope"}),
+        ({"scaling": {"stiffness_max": 0.25}}, FITS | {"fit_power_laws", "fit_local_slope"}),
         ({"figures": {"average": "arithmetic"}}, OF_CONVENTIONS),
         ({"ensemble": {"per_decade": 25}}, {"aggregate_curves"}),
         ({"surface": {"period": 1.5}}, {"generate_discs", "generate_examples"}),
@@ -90,14 +76,13 @@ OF_CONVENTIONS |= {"plot_kinetics", "plot_master_curve", "plot_exponent", "plot_
 def test_changed_setting_reruns_only_the_rules_that_use_it(finished_once, tmp_path, with_dependents, changed, directly):
     planned = plan(finished_once, *TEST, settings_file(tmp_path, "changed", **changed))
     assert set(planned) == with_dependents(directly) | LAST
-    if "surface" in changed:  # longer_period has its own period; sizes and controls have one batch each
+    if "surface" in changed:  # longer_period has its own period; coarse discs have two batches
         assert planned["generate_discs"] == planned["indent_surfaces"] == 2 + 2 + 2
 
 
 def test_changed_lines_rerun_no_rule_that_uses_only_discs(finished_once, tmp_path, with_dependents):
     planned = set(plan(finished_once, *TEST, settings_file(tmp_path, "changed", lines={"points": 2048})))
-    disc_rules = {"compare_zeta_laws", "compare_grids", "fit_local_slope"}
-    disc_rules |= {"fit_sizes", "plot_sizes"}  # their lines have other numbers of points
+    disc_rules = {"compare_zeta_laws", "fit_local_slope", "plot_regions"}
     assert planned == with_dependents({"reduce_lines"}) - disc_rules | LAST
 
 
@@ -107,7 +92,7 @@ def test_further_exponent_reruns_only_its_dependents(finished_once, tmp_path):
     cases = set(re.findall(r"^Job \d+: .*\b(h\d{5}\w*)", text, re.MULTILINE))
     assert cases == {"h06000", "h06000_longer_period", "h06000_roll_off"}
     planned = jobs(text)
-    assert (planned["indent_surfaces"], planned["reduce_lines"], planned["aggregate_curves"]) == (3, 2, 2)
+    assert (planned["indent_surfaces"], planned["reduce_lines"], planned["aggregate_curves"]) == (5, 2, 3)
     assert "compare_exact" not in planned
 
 

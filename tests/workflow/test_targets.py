@@ -3,20 +3,21 @@
 import pytest
 
 from support.workflow import TEST, jobs, plan, snakemake
+from viscorough_study.run.tables import read_table
 
 
 @pytest.mark.parametrize(
     ("name", "indent_surfaces", "reduce_lines"),
-    [("config", 4 * (2 + 1 + 1) + 2, 22), ("paper", 4 * (8 + 1 + 7) + 4, 102)],
+    [("config", 4 * (2 + 1 + 1) + 2, 21), ("paper", 4 * (8 + 1 + 1) + 2, 101)],
 )
 def test_large_scales_have_a_plan(unmade, name, indent_surfaces, reduce_lines):
     planned = plan(unmade, "--configfile", f"config/{name}.yaml")
     assert (planned.pop("indent_surfaces"), planned.pop("reduce_lines")) == (indent_surfaces, reduce_lines)
     assert planned.pop("generate_discs") == indent_surfaces
-    assert planned.pop("aggregate_curves") == 4
+    assert planned.pop("aggregate_curves") == 3
     assert set(planned.values()) == {1}
     assert {"require_accuracy", "fit_power_laws", "judge_claims", "make_page"} < set(planned)
-    assert 2 * indent_surfaces + reduce_lines + sum(planned.values()) <= (120 if name == "config" else 300)
+    assert 2 * indent_surfaces + reduce_lines + sum(planned.values()) <= (90 if name == "config" else 300)
 
 
 @pytest.mark.long
@@ -36,3 +37,19 @@ def test_fine_grids_are_a_target_of_their_own(tmp_path):
 
 def test_other_targets_are_made_together_with_the_default(finished):
     assert jobs(snakemake(finished, *TEST, "--", "speed", "stability")) == {}
+
+
+def test_beyond_and_sensitivities_add_to_the_default_run_and_leave_its_page(finished):
+    """The page shows published pictures, whatever lies in results/."""
+    page = (finished / "results/index.html").read_bytes()
+    done = jobs(snakemake(finished, *TEST, "--", "beyond", "sensitivities"))
+    assert done.pop("indent_surfaces") == done.pop("generate_discs") == 1 + 2  # discs of the law, and of one variant
+    assert done.pop("aggregate_curves") == 2
+    assert set(done.values()) == {1}
+    assert {"make_beyond_page", "tabulate_sensitivities", "tabulate_calibration"} < set(done)
+    assert "fit_power_laws" not in done
+    table = read_table(finished / "results/tables/sensitivities.csv")
+    assert set(table["surfaces"]) == {"base", "longer_period", "corners"}
+    assert set(table["reading"].dropna()) == {"A", "B"}
+    assert plan(finished, *TEST) == {}
+    assert (finished / "results/index.html").read_bytes() == page

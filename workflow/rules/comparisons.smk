@@ -1,5 +1,5 @@
 # Rules that compare: methods with exact solutions and with each other, models of one surface with boundary elements,
-# the results with the literature, other media, and measured surfaces.
+# and measured surfaces.
 
 
 rule compare_exact:
@@ -46,51 +46,6 @@ rule require_accuracy:
         "../scripts/require_accuracy.py"
 
 
-rule compare_periodic:
-    output:
-        csv="results/tables/periodic.csv",
-    log:
-        "results/logs/compare_periodic.log",
-    benchmark:
-        "results/benchmarks/compare_periodic.tsv"
-    conda:
-        "../envs/viscorough.yaml"
-    resources:
-        mem_mb=1000,
-    params:
-        **without("periodic", "hurst"),
-        hursts=config["periodic"]["hurst"],
-        seed=config["seed"],
-        source=digest("compare_periodic"),
-    message:
-        "The control of two springs: periodic contact of the same spectra"
-    script:
-        "../scripts/compare_periodic.py"
-
-
-rule compare_reduction:
-    output:
-        csv="results/tables/reduction.csv",
-    log:
-        "results/logs/compare_reduction.log",
-    benchmark:
-        "results/benchmarks/compare_reduction.tsv"
-    conda:
-        "../envs/viscorough.yaml"
-    resources:
-        mem_mb=1000,
-    params:
-        **chosen("discs", "elements", "realizations", "tolerance"),
-        **config["reduction"],
-        hursts=config["discs"]["hurst"],
-        seed=config["seed"],
-        source=digest("compare_reduction"),
-    message:
-        "Reduction of dimensionality against boundary elements, surface by surface"
-    script:
-        "../scripts/compare_reduction.py"
-
-
 rule compare_direct:
     output:
         csv="results/tables/direct.csv",
@@ -112,80 +67,6 @@ rule compare_direct:
         "Direct integration against both readings of the law"
     script:
         "../scripts/compare_direct.py"
-
-
-rule compare_histories:
-    output:
-        csv="results/tables/histories.csv",
-    log:
-        "results/logs/compare_histories.log",
-    benchmark:
-        "results/benchmarks/compare_histories.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    resources:
-        mem_mb=1000,
-    params:
-        hursts=config["discs"]["hurst"],
-        elements=config["direct"]["elements"],
-        seed=config["seed"],
-        source=digest("compare_histories"),
-    message:
-        "Any history of loading and unloading, against direct integration"
-    script:
-        "../scripts/compare_histories.py"
-
-
-rule tabulate_literature:
-    input:
-        scaling="results/tables/scaling.csv",
-        interface="results/tables/interface.csv",
-        reduction="results/tables/reduction.csv",
-    output:
-        csv="results/tables/literature.csv",
-    log:
-        "results/logs/tabulate_literature.log",
-    benchmark:
-        "results/benchmarks/tabulate_literature.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    resources:
-        mem_mb=1000,
-    params:
-        entries=read_yaml("resources/literature/stiffness.yaml"),
-        conventions=config["figures"],
-        source=digest("tabulate_literature"),
-    message:
-        "Results in the literature"
-    script:
-        "../scripts/tabulate_literature.py"
-
-
-rule compute_media:
-    input:
-        curves=cases.combination_curves(DISCS),
-    output:
-        csv="results/tables/media.csv",
-    log:
-        "results/logs/compute_media.log",
-    benchmark:
-        "results/benchmarks/compute_media.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    resources:
-        mem_mb=1000,
-    params:
-        **config["media"],
-        discs=cases.first_combination(config),
-        rms_convention=config["figures"]["rms_convention"],
-        source=digest("compute_media"),
-    message:
-        "Kinetics in other media"
-    script:
-        "../scripts/compute_media.py"
 
 
 rule map_failures:

@@ -141,54 +141,6 @@ use rule plot_surfaces as plot_regions with:
         "Figure: regions of the curves"
 
 
-use rule plot_surfaces as plot_conventions with:
-    input:
-        scaling="results/tables/scaling.csv",
-    output:
-        path=report(
-            "results/figures/conventions.{format}",
-            caption="../report/figures/conventions.rst",
-            category=category("4 Conventions and validation"),
-            labels={"result": "effect of the conventions", "kind": "figure"},
-        ),
-    log:
-        "results/logs/plot_conventions/{format}.log",
-    benchmark:
-        "results/benchmarks/plot_conventions/{format}.tsv"
-    params:
-        figure="conventions",
-        options={
-            "conventions": config["figures"],
-        },
-        source=digest("plot", figure="conventions"),
-    message:
-        "Figure: effect of the conventions"
-
-
-use rule plot_surfaces as plot_interface with:
-    input:
-        table="results/tables/interface.csv",
-        curves="results/tables/interface_curves.csv",
-        literature="results/tables/literature.csv",
-        periodic="results/tables/periodic.csv",
-    output:
-        path=report(
-            "results/figures/interface.{format}",
-            caption="../report/figures/interface.rst",
-            category=category("8 Beyond the paper"),
-            labels={"result": "interface and punch in series", "kind": "figure"},
-        ),
-    log:
-        "results/logs/plot_interface/{format}.log",
-    benchmark:
-        "results/benchmarks/plot_interface/{format}.tsv"
-    params:
-        figure="interface",
-        source=digest("plot", figure="interface"),
-    message:
-        "Figure: interface and punch in series"
-
-
 use rule plot_surfaces as plot_direct with:
     input:
         table="results/tables/direct.csv",
@@ -208,27 +160,6 @@ use rule plot_surfaces as plot_direct with:
         source=digest("plot", figure="direct"),
     message:
         "Figure: direct integration and both readings of the law"
-
-
-use rule plot_surfaces as plot_reduction with:
-    input:
-        table="results/tables/reduction.csv",
-    output:
-        path=report(
-            "results/figures/reduction.{format}",
-            caption="../report/figures/reduction.rst",
-            category=category("3 Verdicts"),
-            labels={"result": "MDR, surface by surface", "kind": "figure"},
-        ),
-    log:
-        "results/logs/plot_reduction/{format}.log",
-    benchmark:
-        "results/benchmarks/plot_reduction/{format}.tsv"
-    params:
-        figure="reduction",
-        source=digest("plot", figure="reduction"),
-    message:
-        "Figure: MDR, surface by surface"
 
 
 use rule plot_surfaces as plot_mdr_lambda with:
@@ -319,72 +250,6 @@ use rule plot_surfaces as plot_failures with:
         "Figure: where methods fail"
 
 
-use rule plot_surfaces as plot_media with:
-    input:
-        table="results/tables/media.csv",
-    output:
-        path=report(
-            "results/figures/media.{format}",
-            caption="../report/figures/media.rst",
-            category=category("8 Beyond the paper"),
-            labels={"result": "kinetics in other media", "kind": "figure"},
-        ),
-    log:
-        "results/logs/plot_media/{format}.log",
-    benchmark:
-        "results/benchmarks/plot_media/{format}.tsv"
-    params:
-        figure="media",
-        source=digest("plot", figure="media"),
-    message:
-        "Figure: kinetics in other media"
-
-
-use rule plot_surfaces as plot_histories with:
-    input:
-        table="results/tables/histories.csv",
-    output:
-        path=report(
-            "results/figures/histories.{format}",
-            caption="../report/figures/histories.rst",
-            category=category("8 Beyond the paper"),
-            labels={"result": "any history", "kind": "figure"},
-        ),
-    log:
-        "results/logs/plot_histories/{format}.log",
-    benchmark:
-        "results/benchmarks/plot_histories/{format}.tsv"
-    params:
-        figure="histories",
-        source=digest("plot", figure="histories"),
-    message:
-        "Figure: any history"
-
-
-use rule plot_surfaces as plot_sizes with:
-    input:
-        table="results/tables/sizes.csv",
-    output:
-        path=report(
-            "results/figures/sizes.{format}",
-            caption="../report/figures/sizes.rst",
-            category=category("8 Beyond the paper"),
-            labels={"result": "exponents on grids from coarse to fine", "kind": "figure"},
-        ),
-    log:
-        "results/logs/plot_sizes/{format}.log",
-    benchmark:
-        "results/benchmarks/plot_sizes/{format}.tsv"
-    params:
-        figure="sizes",
-        options={
-            "conventions": config["figures"],
-        },
-        source=digest("plot", figure="sizes"),
-    message:
-        "Figure: exponents on grids from coarse to fine"
-
-
 use rule plot_surfaces as plot_local_exponent with:
     input:
         exponents="results/tables/fine_exponents.csv",
@@ -448,17 +313,11 @@ rule figures:
                 "fig3_master_curve",
                 "fig4_exponent",
                 "regions",
-                "conventions",
-                "interface",
                 "direct",
-                "reduction",
                 "mdr_lambda",
                 "validation",
                 "speed",
                 "failures",
-                "media",
-                "histories",
-                "sizes",
             ],
         ),
 

@@ -1,5 +1,5 @@
-# Rules that fit ensembles: β and ζ of every ensemble, λ of lines matched to discs, the interface, and the local
-# slope within region (b); further fits on grids from coarse to fine.
+# Rules that fit ensembles: β and ζ of every ensemble, λ of lines matched to discs, the local slope within region (b), and
+# the exponents on fine grids.
 
 
 rule fit_power_laws:
@@ -53,37 +53,6 @@ rule match_lambda:
         "../scripts/match_lambda.py"
 
 
-rule fit_interface:
-    input:
-        discs="results/ensembles/discs.nc",
-        lines="results/ensembles/lines.nc",
-        size_discs="results/ensembles/size_discs.nc",
-        size_lines="results/ensembles/size_lines.nc",
-    output:
-        csv=["results/tables/interface.csv", "results/tables/interface_curves.csv"],
-    log:
-        "results/logs/fit_interface.log",
-    benchmark:
-        "results/benchmarks/fit_interface.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    resources:
-        mem_mb=4000,
-    params:
-        fit={
-            **config["interface"],
-            **chosen("scaling", "fraction_min", "resamples"),
-            "seed": config["seed"],
-        },
-        rms_convention=config["figures"]["rms_convention"],
-        source=digest("fit_interface"),
-    message:
-        "Interface and punch in series"
-    script:
-        "../scripts/fit_interface.py"
-
-
 rule fit_local_slope:
     input:
         discs="results/ensembles/discs.nc",
@@ -99,7 +68,7 @@ rule fit_local_slope:
     resources:
         mem_mb=2000,
     params:
-        controls=[case["name"] for case in config["variants"]["cases"] if case.get("roll_off_wavelength")],
+        controls=["roll_off"],
         region=without("scaling", "stiffness_range", "resamples"),
         half_width=config["scaling"]["slope_half_width"],
         resamples=config["scaling"]["resamples"],
@@ -136,81 +105,6 @@ rule compare_zeta_laws:
         "Laws of the prefactor by one measure"
     script:
         "../scripts/compare_zeta_laws.py"
-
-
-rule fit_sizes:
-    input:
-        discs="results/ensembles/size_discs.nc",
-        lines="results/ensembles/size_lines.nc",
-    output:
-        csv="results/tables/sizes.csv",
-    log:
-        "results/logs/fit_sizes.log",
-    benchmark:
-        "results/benchmarks/fit_sizes.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    resources:
-        mem_mb=1000,
-    params:
-        **config["scaling"],
-        windows=config["sizes"]["windows"],
-        seed=config["seed"],
-        source=digest("fit_sizes"),
-    message:
-        "Exponents on grids from coarse to fine"
-    script:
-        "../scripts/fit_sizes.py"
-
-
-rule tabulate_calibration:
-    input:
-        scaling="results/tables/scaling.csv",
-        sizes="results/tables/sizes.csv",
-    output:
-        csv="results/tables/calibration.csv",
-    log:
-        "results/logs/tabulate_calibration.log",
-    benchmark:
-        "results/benchmarks/tabulate_calibration.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    resources:
-        mem_mb=1000,
-    params:
-        conventions=config["figures"],
-        across=config["discs"]["elements"],
-        source=digest("tabulate_calibration"),
-    message:
-        "Calibrated exponents and prefactors"
-    script:
-        "../scripts/tabulate_calibration.py"
-
-
-rule compare_grids:
-    input:
-        discs="results/ensembles/size_discs.nc",
-    output:
-        csv="results/tables/grid_dependence.csv",
-    log:
-        "results/logs/compare_grids.log",
-    benchmark:
-        "results/benchmarks/compare_grids.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    resources:
-        mem_mb=1000,
-    params:
-        elements_min=config["scaling"]["elements_min"],
-        rms_convention=config["figures"]["rms_convention"],
-        source=digest("compare_grids"),
-    message:
-        "Eq. 1 on grids from coarse to fine"
-    script:
-        "../scripts/compare_grids.py"
 
 
 rule fit_fine_grids:

@@ -17,26 +17,16 @@ rule tables:
                 "mdr_lambda",
                 "mdr_summary",
                 "mdr_exponents",
-                "interface",
-                "interface_curves",
                 "claims",
-                "calibration",
-                "periodic",
                 "validation",
-                "reduction",
                 "direct",
-                "histories",
                 "local_slope",
                 "zeta_laws",
-                "literature",
                 "methods",
                 "one_surface",
                 "mean_accuracy",
                 "sufficient_models",
                 "failure_map",
-                "sizes",
-                "grid_dependence",
-                "media",
             ],
         ),
 
@@ -90,17 +80,11 @@ PAGE_FIGURES = [
     "fig3_master_curve",
     "fig4_exponent",
     "regions",
-    "conventions",
-    "interface",
     "direct",
-    "reduction",
     "mdr_lambda",
     "validation",
     "speed",
     "failures",
-    "media",
-    "histories",
-    "sizes",
 ]
 # {table whose numbers the page states: rule that makes the table}
 PAGE_TABLES = {
@@ -109,7 +93,6 @@ PAGE_TABLES = {
     "one_surface": "measure_surfaces",
     "failure_map": "map_failures",
     "rule_costs": "tabulate_rule_costs",
-    "media": "compute_media",
     "sufficient_models": "choose_models",
 }
 if MEASURED:
@@ -117,14 +100,16 @@ if MEASURED:
     PAGE_TABLES["measured_scans"] = "evaluate_measured"
     PAGE_TABLES["measured_contacts"] = "press_measured"
     PAGE_TABLES["measured_fits"] = "evaluate_measured"
+# Figures of `beyond`, of which the page shows published pictures.
+BEYOND_FIGURES = ["interface", "reduction", "media", "histories"]
 # Further files that the page shows or quotes.
 PAGE_TEXTS = [
     *sorted(path for path in (WORKFLOW / "page").rglob("*") if path.is_file()),
     *sorted((WORKFLOW / "report").rglob("*.rst")),
     PROJECT / "resources/published/fine_exponents.csv",
     PROJECT / "resources/published/other_solvers.csv",
+    *(PROJECT / f"docs/results/{figure}.png" for figure in ("local_exponent", *BEYOND_FIGURES)),
     PROJECT / "docs/rules.png",
-    PROJECT / "docs/results/local_exponent.png",
 ]
 
 

@@ -52,8 +52,8 @@ rule measure_surfaces:
 rule compare_means:
     input:
         discs="results/ensembles/discs.nc",
+        coarse="results/ensembles/coarse.nc",
         lines="results/ensembles/lines.nc",
-        size_discs="results/ensembles/size_discs.nc",
         mdr_lambda="results/tables/mdr_lambda.csv",
         scaling="results/tables/scaling.csv",
         one_surface="results/tables/one_surface.csv",

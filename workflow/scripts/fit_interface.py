@@ -14,15 +14,14 @@ TABLES = {
 }
 
 
-def main(discs, lines, size_discs, size_lines, csv, **settings):
+def main(discs, law, lines, csv, **settings):
     """Fit the model of punch and interface to every ensemble of discs and of lines, and write the tables.
 
-    discs, lines : files with all realizations of the discs and of the lines that all figures use (base ensembles)
-    size_discs, size_lines : files with all realizations of discs and of lines on grids from coarse to fine
+    discs, law, lines : files with all realizations of discs, of discs of further Hurst exponents, and of lines
     csv : list of the files to write, one for each table
     settings : further arguments of `interface_tables`
     """
-    tables = interface_tables(*map(read_dataset, (discs, lines, size_discs, size_lines)), **settings)
+    tables = interface_tables(*map(read_dataset, (discs, law, lines)), **settings)
     write_tables(tables, csv, TABLES)
 
 

@@ -45,8 +45,7 @@ def literature(scaling, interface, reduction, *, entries, conventions):
     """
     fitted = fits(scaling, conventions, source="discs", case_group="base")
     alpha = {"alpha": 1 - fitted["beta"], "alpha_low": 1 - fitted["beta_high"], "alpha_high": 1 - fitted["beta_low"]}
-    discs = interface[(interface["source"] == "discs") & (interface["case_group"] == "base")]
-    u0 = _values(discs, "u0")
+    u0 = _values(interface[interface["source"] == "discs"], "u0")
     at_x = reduction[np.log(reduction["x"] / X_COMPARED).abs() < 1e-6]
     ours = {
         "alpha": _values(fitted.assign(**alpha), "alpha"),

@@ -37,10 +37,10 @@ COLUMNS = {
 }
 
 
-def mean_accuracy(discs, lines, size_discs, mdr_lambda, scaling, one_surface, *, conventions):
+def mean_accuracy(discs, coarse, lines, mdr_lambda, scaling, one_surface, *, conventions):
     """Compute error and cost of every model of the mean; return a pandas.DataFrame with the columns of `COLUMNS`.
 
-    discs, lines, size_discs : pools (ensembles.pool) of discs, of MDR lines, and of discs on grids from coarse to fine
+    discs, coarse, lines : pools (ensembles.pool) of discs, of discs on coarser grids, and of MDR lines
     mdr_lambda, scaling, one_surface : tables of results with these names
     conventions : choices that the paper leaves open, {name of the choice: value used in the figures}
         (fits.conventions)
@@ -48,7 +48,7 @@ def mean_accuracy(discs, lines, size_discs, mdr_lambda, scaling, one_surface, *,
     rms = conventions["rms_convention"]
     base = ensembles(select(discs, group="base"), "hurst", rms_convention=rms)
     reduced = ensembles(lines, "hurst", rms_convention="line")
-    grids = ensembles(select(size_discs, group="sizes"), "hurst", "elements", rms_convention=rms)
+    grids = ensembles(coarse, "hurst", "elements", rms_convention=rms)
     rows, standard_errors = [], {}
     for hurst, truth in base.items():
         times = one_surface[one_surface["hurst"] == _nearest(one_surface["hurst"], hurst)].query(

@@ -28,15 +28,14 @@ def punch_stiffness(elements_across):
     return contact_at(Indenter(disc, 1 / elements_across), depth=1.0, tolerance=1e-5).stiffness / 4
 
 
-def ensembles_on_grids(pool, source, rms_convention):
+def ensembles_on_grids(pool, source):
     """Yield (H, number, κ_c, ensemble) for every Hurst exponent and grid of a pool.
 
     number : elements across discs, or points of lines
     κ_c : stiffness κ of the flat punch on this grid; 1 for lines
-    source : "lines" if the pool contains lines, "discs" if it contains discs
-    rms_convention : where the rms height of discs is measured (a key of ensembles.batches.RMS)
+    source : "lines" if the pool contains lines, "discs" if it contains discs, whose h is the rms height of each disc
     """
-    convention = "line" if source == "lines" else rms_convention
+    convention = "line" if source == "lines" else "disc"
     for (hurst, elements), ensemble in ensembles(pool, "hurst", "elements", rms_convention=convention).items():
         across = elements_across(elements)
         grid = (elements, COMPLETE_CONTACT_STIFFNESS) if source == "lines" else (across, punch_stiffness(across))

@@ -1,55 +1,57 @@
-"""Draw Figure 4 of the paper: the exponent β against the Hurst exponent."""
+"""Draw Figure 4 of the paper: the exponent β against the Hurst exponent, in both readings of the surfaces."""
 
 import numpy as np
-from matplotlib.legend_handler import HandlerTuple
 
 from viscorough import reference
 from viscorough_study.figures import style
-from viscorough_study.fits.conventions import fits
+from viscorough_study.fits.conventions import READINGS, fits
 
-# Look of exponents on fine grids; they are drawn at H plus SHIFT, so that they do not hide other markers.
-FINE = {"color": style.VERMILION, "marker": "D", "markerfacecolor": "none", "linestyle": ""}
-SHIFT = 0.015
+# Look of the discs of each reading, and of the published discs on fine grids; the value SHIFT is added to H, so that
+# markers do not hide each other.
+LOOKS = {
+    "A": {"color": style.BLUE, "marker": "o"},
+    "B": {"color": style.VERMILION, "marker": "s", "markerfacecolor": "white"},
+}
+FINE = {"color": style.GREEN, "marker": "D"}
+SHIFT = {"A": -0.012, "B": 0.012, "fine": 0.0}
 
 
 @style.figure
 def plot_exponent(scaling, conventions, hurst_range, fine_grids):
     """Draw β of MDR lines and of discs, with 95 % intervals, and β of Eq. 10, all against the Hurst exponent H.
 
-    Open diamonds are the published β of discs at smaller X on finer grids, in the decades by which the limit is judged.
     scaling : table of fitted power laws
     conventions : {column of the table: value}, which select the fits that are drawn (fits.conventions)
     hurst_range : range of H in which the paper finds Eq. 10 accurate (resources/paper/laws.yaml)
-    fine_grids : published rows from fits.fine_sentence.judged_rows
+    fine_grids : published β of discs at smaller X on fine grids, rows of fits.fine_sentence.judged_rows
     """
-    looks = style.hurst_looks(scaling.loc[scaling["source"] == "discs", "hurst"])
-    figure, axes = style.new_subplots(82, width=style.NARROW)
-    axes.axvspan(*hurst_range, color="0.94", linewidth=0)
-    text = {"color": style.GREY, "ha": "right", "transform": axes.transAxes}
-    axes.text(0.94, 0.04, "where the paper finds\nEq. 10 accurate", **text)
-    lines = fits(scaling, conventions, source="lines", case_group="base", rms_convention="line")
-    band = axes.fill_between(lines["hurst"], lines["beta_low"], lines["beta_high"], color=style.PALE, linewidth=0)
-    (solid,) = axes.plot(lines["hurst"], lines["beta"], color="black")
-    discs = fits(scaling, conventions, source="discs", case_group="base")
-    for row in discs.itertuples():
-        style.mark_with_interval(axes, row.hurst, row.beta, (row.beta_low, row.beta_high), looks[row.hurst])
+    figure, axes = style.new_subplots(84, width=style.NARROW)
+    axes.axvspan(*hurst_range, color="0.95", linewidth=0, zorder=0)
+    axes.text(np.mean(hurst_range), 0.01, "where the paper finds\nEq. 10 accurate", color=style.GREY, ha="center")
+    lines = fits(scaling, conventions | {"rms_convention": "line"}, source="lines")
+    axes.fill_between(lines["hurst"], lines["beta_low"], lines["beta_high"], color=style.PALE, linewidth=0)
+    axes.plot(lines["hurst"], lines["beta"], color="black")
     hurst = np.linspace(0, 1, 101)
-    (law,) = axes.plot(hurst, reference.exponent_beta(hurst), "--", color=style.GREY)
-    legend, apart = {"$H/(1+H)$, Eq. 10": law}, {}
-    if len(lines):
-        legend[f"MDR, {style.count_text(lines['realizations'])} lines for each $H$"] = (band, solid)
-    if len(discs):
-        symbols = tuple(style.hurst_handles({row.hurst: looks[row.hurst] for row in discs.itertuples()}, linestyle=""))
-        names = ", ".join(f"{row.hurst:g}" for row in discs.itertuples())
-        text = f"boundary elements, {style.count_text(discs['realizations'])} discs for each $H$:\n$H$ = {names}"
-        legend[text] = symbols
-        apart[symbols] = HandlerTuple(ndivide=None)  # the markers side by side, not on top of each other
+    axes.plot(hurst, reference.exponent_beta(hurst), "--", color=style.GREY)
+    handles = [
+        style.handle("$H/(1+H)$, Eq. 10", color=style.GREY, linestyle="--"),
+        style.handle(f"lines (MDR), {style.count_text([*lines['realizations']] or [0])} for each $H$", color="black"),
+    ]
+    for reading, columns in READINGS.items():
+        rows = fits(scaling, conventions | columns, source="discs")
+        for row in rows.itertuples():
+            place, interval = row.hurst + SHIFT[reading], (row.beta_low, row.beta_high)
+            style.mark_with_interval(axes, place, row.beta, interval, LOOKS[reading])
+        number = style.count_text([*rows["realizations"]] or [0])
+        handles.append(style.handle(f"discs, reading {reading}, {number} for each $H$", linestyle="", **LOOKS[reading]))
     for row in fine_grids:
-        style.mark_with_interval(axes, row["hurst"] + SHIFT, row["beta"], (row["beta_low"], row["beta_high"]), FINE)
+        place, interval = row["hurst"] + SHIFT["fine"], (row["beta_low"], row["beta_high"])
+        style.mark_with_interval(axes, place, row["beta"], interval, FINE)
     if fine_grids:
-        across = max(row["across"] for row in fine_grids)
-        legend[f"{across:g} across, smaller $X$ (published: make fine-grids)"] = style.handle("", **FINE)
-    figure.legend(legend.values(), legend.keys(), loc="outside upper center", handler_map=apart, handlelength=4.5)
+        across = style.count_text([row["across"] for row in fine_grids])
+        handles.append(style.handle(f"discs, {across} across, small $X$ (published)", linestyle="", **FINE))
+    axes.legend(handles=handles, loc="upper left", handlelength=1.8, borderaxespad=0)
     axes.set(xlim=(-0.02, 1.04), xlabel="Hurst exponent $H$", ylabel=r"exponent $\beta$")
-    axes.set_ylim(bottom=min(0, axes.get_ylim()[0]))
+    bottom, top = axes.get_ylim()
+    axes.set_ylim(min(0, bottom), max(0.72, top))
     return figure

@@ -5,7 +5,6 @@ the value of g on its plateau (fits.interface).
 """
 
 import numpy as np
-import pandas as pd
 
 from viscorough.law.calibrated_law import ACROSS, LARGEST_DEVIATION, interface_calibration, penetration_law
 from viscorough_study.comparisons.literature import cited
@@ -16,7 +15,7 @@ X_SHOWN = (1e-4, 30.0)
 # Panel (c) omits g below this share of X, the punch's part of vt/h. Such a small g has a large error, because vt/h is
 # known only to 0.1 %.
 LEAST_SHARE = 0.01
-LABELS = ["source", "case_group", "hurst", "across"]  # columns that identify an ensemble
+LABELS = ["source", "hurst", "across"]  # columns that identify an ensemble
 
 
 @style.figure
@@ -24,16 +23,14 @@ def plot_interface(table, curves, literature, periodic):
     """Draw g of discs and periodic surfaces (a), g of lines (b), g of the law divided by g of discs (c), and u₀/h (d).
 
     g is the contribution of the rough interface to vt/h (fits.interface). u₀/h is the value of g on its plateau. All
-    means are arithmetic, because compliances add. Panels (a) to (c) show each Hurst exponent only on the base grid, the
-    usual grid of the study. The law of the library is drawn in (a) and (c), but only for the grid and the Hurst
-    exponents of its calibration.
+    means are arithmetic, because compliances add. The law of the library is drawn in (a) and (c), but only for the grid
+    and the Hurst exponents of its calibration.
 
     table : table "interface" of fits.interface; curves : table "interface_curves" of the same module
     literature : table of comparisons.literature, with published u₀/h for (d)
     periodic : table of comparisons.periodic_control
     """
-    base = pd.concat([_on_base_grid(rows) for _, rows in table.groupby("source")])
-    shown = curves.merge(base[[*LABELS, "plateau_low", "plateau_high"]], on=LABELS)
+    shown = curves.merge(table[[*LABELS, "plateau_low", "plateau_high"]], on=LABELS)
     shown = shown[shown["x"].between(X_SHOWN[0], 1.01 * X_SHOWN[1])]
     looks = style.hurst_looks([*table["hurst"], *periodic["hurst"]])
     figure, ((discs, lines), (ratio, plateaus)) = style.new_subplots(130, 2, 2)
@@ -56,7 +53,7 @@ def plot_interface(table, curves, literature, periodic):
     ratio.axhspan(1 - LARGEST_DEVIATION, 1 + LARGEST_DEVIATION, color="0.92", linewidth=0, zorder=0)
     ratio.axhline(1, color=style.BLACK, linewidth=0.6)
     ratio.set(title="(c) the law over boundary elements", ylabel="$g$ of the law over the mean", ylim=(0.7, 1.3))
-    _name_discs(ratio, base[base["source"] == "discs"])
+    _name_discs(ratio, table[table["source"] == "discs"])
     _draw_literature(plateaus, literature)
     _draw_plateaus(plateaus, table, looks)
     plateaus.set(title="(d) plateau of $g$", xlabel="Hurst exponent $H$", ylabel="$u$₀$/h$", ylim=(0.2, 0.7))
@@ -69,19 +66,6 @@ def plot_interface(table, curves, literature, periodic):
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), columnspacing=1)
     return figure
-
-
-def _on_base_grid(rows):
-    """Return the rows of a table that were computed on the base grid, the usual grid of the study.
-
-    These are the rows of the base ensembles. For Hurst exponents that have no base ensemble, the rows of the grid study
-    on the same grid are added.
-    rows : table rows of all discs, or of all lines
-    """
-    is_size = rows["case_group"] == "sizes"
-    base = rows[~is_size]
-    further = rows[is_size & rows["across"].isin(base["across"]) & ~rows["hurst"].isin(base["hurst"])]
-    return pd.concat([base, further])
 
 
 def _draw_law(axes, ratios, curve, law, look):
@@ -123,15 +107,12 @@ def _draw_literature(axes, literature):
 
 
 def _draw_plateaus(axes, table, looks):
-    """Draw u₀/h of discs and of lines against H, with a different marker for each grid of discs.
+    """Draw u₀/h of discs and of lines against H.
 
     u₀/h is the value of g on its plateau, where g is the part of the interface in vt/h.
-
-    Lines are drawn on the base grid only, because u₀ of lines varies far less with the number of points than with H.
     """
-    discs = table["source"] == "discs"
-    names = np.where(discs, table["across"].astype(str) + " across", "lines (MDR)")
-    table = table.assign(name=names)[discs | (table["case_group"] != "sizes")].sort_values("across")
+    names = np.where(table["source"] == "discs", table["across"].astype(str) + " across", "lines (MDR)")
+    table = table.assign(name=names).sort_values("across")
     markers = dict(zip(table["name"].unique(), style.SERIES_MARKERS, strict=False))
     for rank, (name, rows) in enumerate(table.groupby("name", sort=False)):
         for row in rows.itertuples():

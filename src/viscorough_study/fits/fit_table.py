@@ -16,7 +16,7 @@ import pandas as pd
 
 from viscorough import reference
 from viscorough.law.calibrated_law import COLUMNS as CALIBRATION
-from viscorough_study.ensembles.pool import elements_across, ensembles, select
+from viscorough_study.ensembles.pool import ensembles, select
 from viscorough_study.fits.conventions import (
     FITTED,
     GAMMA,
@@ -51,7 +51,6 @@ COLUMNS = {
     "residual_fixed": ("root mean square of ln(vt/h) less the law with β = H/(1 + H)", "1"),
     **described("lambda", "λ in C1D = λ q C2D, line matched to surface (Eq. 13)", ends="of the 95 % interval of λ"),
 }
-SIZES = COLUMNS | {"elements": ("elements of an indenter: of a disc, points of a line", "1")}
 
 
 def scaling_table(discs, lines, *, seed, **fit):
@@ -74,26 +73,6 @@ def scaling_table(discs, lines, *, seed, **fit):
         logging.info("lines, H = %g", hurst)
         rows += fit_rows(ensemble, source="lines", case_group="base", seed=seed, **fit)
     return pd.DataFrame(rows, columns=list(COLUMNS))
-
-
-def sizes_table(discs, lines, *, windows, **fit):
-    """Fit power laws separately on each grid, from coarse to fine, in region (b) and in windows of fixed X.
-
-    Region (b) moves with the grid, since a finer grid resolves smaller X. In a window of fixed X, only the grid
-    changes. A deviation of β from H/(1 + H) may become smaller on finer grids in region (b), but remain the same in
-    windows of fixed X. Such a deviation depends on the X of the window, not on the grid.
-
-    discs, lines : pools (viscorough_study.ensembles.pool) of realizations on several grids
-    windows : list of windows of fixed X, (X_low, X_high)
-    fit : further arguments of `fit_rows`
-    Returns a pandas.DataFrame with the columns of `SIZES`.
-    """
-    rows = []
-    for source, group, pool in (("discs", "sizes", discs), ("discs", "controls", discs), ("lines", "sizes", lines)):
-        for ensemble in ensembles(select(pool, group=group), "hurst", "elements").values():
-            fitted = fit_rows(ensemble, source=source, case_group=group, fixed=windows, **fit)
-            rows += [row | {"elements": ensemble["elements"].item()} for row in fitted]
-    return pd.DataFrame(rows, columns=list(SIZES))
 
 
 def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **limits):
@@ -169,16 +148,17 @@ def _paper_exponent(ensemble, betas, zetas, window, average):
     return residuals | three_columns("zeta_fixed", with_interval(fixed, len(velocity)))
 
 
-def calibrated(scaling, sizes, *, conventions, across):
+def calibrated(scaling, law, *, conventions, **fit):
     """Select the fits that calibrate the penetration law: a table with the columns of viscorough.law.calibrated_law.
 
-    scaling : table of `scaling_table`; its discs have `across` elements across
-    sizes : table of `sizes_table`. Its discs with `across` elements across are used for those Hurst exponents that
-        `scaling` lacks
+    scaling : table of `scaling_table`
+    law : pool (viscorough_study.ensembles.pool) of discs of Hurst exponents that `scaling` lacks
     conventions : {convention: value} of the selected fits, for example {"average": "geometric"}
+    fit : further arguments of `fit_rows`
     """
     rows = [fits(scaling, conventions | source_values(source), case_group="base") for source in ("discs", "lines")]
-    further = fits(sizes, conventions | source_values("discs"), case_group="sizes")
-    same_grid = further["elements"].map(elements_across) == across
-    rows.append(further[same_grid & ~further["hurst"].isin(rows[0]["hurst"])])
+    for hurst, ensemble in ensembles(law, "hurst").items():
+        if hurst not in rows[0]["hurst"].values:
+            further = pd.DataFrame(fit_rows(ensemble, source="discs", case_group="base", **fit))
+            rows.append(fits(further, conventions, source="discs"))
     return pd.concat(rows)[list(CALIBRATION)].sort_values(["source", "hurst"], ignore_index=True)

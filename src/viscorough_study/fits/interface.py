@@ -21,7 +21,6 @@ from viscorough_study.fits.power_law import log_means
 
 ENSEMBLE = {
     "source": ("discs (boundary elements) or lines (method of dimensionality reduction)", ""),
-    "case_group": ("base, sizes: grids from coarse to fine, or lines", ""),
     "hurst": ("Hurst exponent H", "1"),
     "across": ("elements across the disc, or points of the line", "1"),
 }
@@ -39,24 +38,21 @@ CURVES = {
 }
 
 
-def interface_tables(discs, lines, size_discs, size_lines, *, fit, rms_convention):
+def interface_tables(discs, law, lines, *, fit):
     """Fit the interface of all discs, and of lines with the same Hurst exponents; return two tables.
 
-    discs, lines : pools (viscorough_study.ensembles.pool) of the base ensembles, which have a single grid
-    size_discs, size_lines : pools of the ensembles on grids from coarse to fine
+    discs, law, lines : pools (viscorough_study.ensembles.pool) of the discs, of which only the group base is used, of
+        the discs of further Hurst exponents, and of the lines. h is the rms height of each disc
     fit : further arguments of `fit_interface`
-    rms_convention : name of the definition of the rms height of discs
     Returns {"interface": table, "interface_curves": table}, pandas.DataFrames with the columns `COLUMNS` and `CURVES`.
     """
-    pools = {("discs", "base"): discs, ("discs", "sizes"): size_discs, ("lines", "lines"): lines}
-    pools |= {("lines", "sizes"): size_lines}
-    pools = {(source, group): select(pool, group=group) for (source, group), pool in pools.items()}
-    hursts = np.concatenate([pools["discs", group]["hurst"].values for group in ("base", "sizes")])
+    base = select(discs, group="base")
+    hursts = np.concatenate([base["hurst"].values, law["hurst"].values])
+    lines = lines.isel(realization=np.flatnonzero(np.isin(lines["hurst"], hursts)))
     rows, curves = [], []
-    for (source, group), pool in pools.items():
-        pool = pool.isel(realization=np.flatnonzero(np.isin(pool["hurst"], hursts)))
-        for hurst, number, punch, ensemble in ensembles_on_grids(pool, source, rms_convention):
-            labels = {"source": source, "case_group": group, "hurst": hurst, "across": number}
+    for source, pool in (("discs", base), ("discs", law), ("lines", lines)):
+        for hurst, number, punch, ensemble in ensembles_on_grids(pool, source):
+            labels = {"source": source, "hurst": hurst, "across": number}
             row, curve = fit_interface(ensemble, punch, **fit)
             rows.append(labels | row)
             curves.append(curve.assign(**labels))

@@ -18,7 +18,9 @@ from viscorough_study.run.tables import split_table
 from viscorough_study.verdicts.claim import KINDS
 
 # {picture in docs/results/ that the page shows without drawing it: command that draws it}
-PUBLISHED_PICTURES = {"local_exponent": "make fine-grids"}
+PUBLISHED_PICTURES = {"local_exponent": "make fine-grids"} | dict.fromkeys(
+    ("interface", "reduction", "media", "histories"), "make beyond"
+)
 
 
 def page_of(project, discs, figures, *, fraction_min, **run):
@@ -79,7 +81,6 @@ def contents_of(project, discs, lines, *, tables, numbers, made_by, changed, fil
         "outcomes": OUTCOMES,
         "other": content.other_solvers(project / "resources/published/other_solvers.csv"),
         "second": content.second_solver(project / "resources/published/second_solver.csv"),
-        "media": content.media(results),
         "measured": content.measured(results, conventions),
         "changed": {name: [content.as_yaml(value) for value in pair] for name, pair in changed.items()},
         "files": files,

@@ -10,7 +10,6 @@ import yaml
 from viscorough.io.netcdf import opened
 from viscorough_study.page.results import Number
 from viscorough_study.robustness.stress_solutions import MODELS
-from viscorough_study.run.cases import medium_label
 from viscorough_study.verdicts.claim import KINDS
 from viscorough_study.verdicts.claims import CLAIMS, counted_verdicts, is_trial, verdicts_of
 
@@ -128,21 +127,6 @@ def second_solver(path):
     table = pd.read_csv(path)
     differences = {name: table[f"{name}_difference"].abs().max() for name in ("force", "beta", "zeta")}
     return differences | table[["solver", "version", "discs"]].iloc[0].to_dict()
-
-
-def media(results):
-    """Return the local exponent d ln(vt/h)/d ln t, for each medium and Hurst exponent, at three times.
-
-    The keys "first" and "last" are the first and the last time of the table `media`. The key "middle" is the time t
-    when the reduced time X is nearest to 0.01.
-    """
-    table, rows = results.tables["media"], []
-    for (name, hurst), part in table.groupby(["medium", "hurst"], sort=False):
-        middle = np.log(part["x"] / 0.01).abs().idxmin()
-        places = {"first": part.index[0], "middle": middle, "last": part.index[-1]}
-        exponents = {when: results.number("media", row, "exponent") for when, row in places.items()}
-        rows.append({"medium": medium_label(name), "hurst": hurst} | exponents)
-    return rows
 
 
 def measured(results, conventions):

@@ -10,8 +10,8 @@ several ensembles:
 - Side by side: a batch has the same realizations of all ensembles of the case. Combinations of force, viscosity,
   diameter and rms height at one Hurst exponent are batched in this way. Combinations 1 to 9 are one case and 10 to 19
   the next case, so a tenth combination does not change the curves of the first nine.
-- In sequence: a batch has realizations of one ensemble and then of the next. Grids from coarse to fine are batched in
-  this way, so that a job can hold many small discs.
+- In sequence: a batch has realizations of one ensemble and then of the next. Discs on coarse grids are batched in this
+  way, so that a job can hold many small discs.
 
 Names of cases are parts of file names, which contain no floating-point numbers. Names of ensembles are in the tables.
 """
@@ -24,20 +24,23 @@ from viscorough_study.run import seeds
 # {pool of curves: conventions for the rms height h of its surfaces}. A convention names the region where h is measured.
 POOLS = {
     "discs": ("disc", "square", "ensemble"),
+    "variants": ("disc", "square", "ensemble"),
+    "coarse": ("disc",),
+    "law": ("disc",),
     "lines": ("line",),
-    "size_discs": ("disc", "square", "ensemble"),
-    "size_lines": ("line",),
     "measured": ("disc",),
 }
 # {pool of curves: kind of its surfaces}. The kind is also the name of the folder with the curves.
 POOL_KINDS = {
     "discs": "discs",
+    "variants": "discs",
+    "coarse": "discs",
+    "law": "discs",
     "lines": "lines",
-    "size_discs": "discs",
-    "size_lines": "lines",
     "measured": "measured",
 }
-SURFACE_CONVENTIONS = {"period", "corners", "amplitudes"}  # settings of surfaces that the paper does not state
+# Pools of the default run; the others are made by the targets `beyond` (law) and `sensitivities` (variants).
+POOLS_OF_ALL = ("discs", "coarse", "lines", "measured")
 UNIT_DISC = {"rms": 1.0, "diameter": 1.0, "length_unit": "1"}
 UNIT_LINE = {"rms": 1.0, "length": 1.0}
 
@@ -58,76 +61,65 @@ def disc_cases(settings):
     The seed of a disc is the spawn key followed by the number of the realization (run.seeds). `realizations` of a case
     is the sum over its ensembles, or, if `side_by_side` is true, the number for each ensemble.
     """
-    return _paper_discs(settings) | _size_discs(settings)
+    return _combined_discs(settings) | _single_discs(settings)
 
 
-def _paper_discs(settings):
-    cases, discs, variants = {}, settings["discs"], settings["variants"]
-    indentation = {name: discs[name] for name in ("tolerance", "whole_curves", "short_until_x")}
-    shared = {"pool": "discs", "indentation": settings["indentation"] | indentation}
-    base = {"group": "base", "realizations": discs["realizations"], "batch": discs["batch"], "side_by_side": True}
+def _combined_discs(settings):
+    """Return the cases of the group "base": discs of all combinations of force, viscosity, diameter and rms height."""
+    cases, discs = {}, settings["discs"]
+    ends = {name: discs[name] for name in ("tolerance", "whole_curves", "short_until_x")}
+    base = {"pool": "discs", "group": "base", "indentation": settings["indentation"] | ends, "side_by_side": True}
+    base |= {"realizations": discs["realizations"], "batch": discs["batch"]}
     for hurst in discs["hurst"]:
         for combination in sorted(discs["combinations"], key=lambda combination: combination["number"] // 10):
             number, lengths = combination["number"], {name: combination[name] for name in ("rms", "diameter")}
             surface = settings["surface"] | {"hurst": hurst, "length_unit": "m"} | lengths
             ensemble = _ensemble(f"{hurst_id(hurst)}_c{number}", seeds.disc_key(hurst, number), surface, discs)
             name = hurst_id(hurst) + (f"_{number // 10}0" if number >= 10 else "")
-            case = cases.setdefault(name, shared | base | {"ensembles": []})
+            case = cases.setdefault(name, base | {"ensembles": []})
             case["ensembles"].append(ensemble | {"combination": combination})
-        cases |= {f"{hurst_id(hurst)}_longer_period": _longer_period(settings, hurst, shared)}
-        for name, changed in _changes_of_variants(settings).items():
-            surface = settings["surface"] | changed | UNIT_DISC | {"hurst": hurst}
-            ensemble = _ensemble(f"{hurst_id(hurst)}_{name}", seeds.variant_key(hurst, name), surface, discs | variants)
-            cases[ensemble["name"]] = _joint_case([ensemble], variants["batch"], name, **shared)
     return cases
 
 
-def _longer_period(settings, hurst, shared):
-    """Return the case of the discs cut from a square of a longer period; shared : keys that all cases have."""
-    own = settings["discs"]["longer_period"]
-    surface = settings["surface"] | UNIT_DISC | {"hurst": hurst, "period": own["period"], "rms_over": "square"}
-    grid = {"elements": settings["discs"]["elements"], "realizations": own["realizations"]}
-    name = f"{hurst_id(hurst)}_longer_period"
-    ensemble = _ensemble(name, seeds.variant_key(hurst, "longer_period"), surface, grid)
-    ends = {"until_x": own["until_x"], "short_until_x": own["until_x"], "whole_curves": 0}
-    own_shared = shared | {"indentation": shared["indentation"] | ends}
-    return _joint_case([ensemble], own["batch"], "longer_period", **own_shared)
+def _single_discs(settings):
+    """Return the cases of all other discs, which have a single combination, h = L = 1 m."""
+    cases, discs, variants = {}, settings["discs"], settings["variants"]
 
+    def add(name, pool, group, until_x, ensembles):
+        # All curves end at the same X, so `whole_curves` does not matter.
+        ends = {"until_x": until_x, "short_until_x": until_x, "whole_curves": 0, "tolerance": discs["tolerance"]}
+        indentation = settings["indentation"] | ends
+        cases[name] = _joint_case(ensembles, discs["single_batch"], group, pool=pool, indentation=indentation)
 
-def _changes_of_variants(settings):
-    """Return {name of a variant: settings of its surfaces that differ from section `surface`}."""
-    variants = settings["variants"]["cases"]
-    return {variant["name"]: {key: value for key, value in variant.items() if key != "name"} for variant in variants}
-
-
-def surfaces_left_open(settings):
-    """Return the names of the groups of discs whose surfaces may be those of the paper, as far as the paper states.
-
-    The surfaces of these groups differ only in `SURFACE_CONVENTIONS`, which the paper does not state. Groups with other
-    differences, such as a roll-off, are controls, and are omitted.
-    """
-    changes = {"base": {}} | _changes_of_variants(settings)
-    return [group for group, changed in changes.items() if set(changed) <= SURFACE_CONVENTIONS]
-
-
-def _size_discs(settings):
-    sizes = settings["sizes"]
-    # The first `whole_curves` curves of an ensemble end at the dimensionless force X = `until_x`, all other curves at
-    # `short_until_x`. Here both values of X are equal, so `whole_curves` does not matter.
-    changed = {"until_x": sizes["until_x"], "short_until_x": sizes["until_x"], "whole_curves": 0}
-    changed["tolerance"] = settings["discs"]["tolerance"]
-    shared = {"pool": "size_discs", "indentation": settings["indentation"] | changed}
-    surface, powers = settings["surface"] | UNIT_DISC, [{"hurst": hurst} for hurst in sizes["hurst"]]
-    cases = {}
-    for group, changes, key in (
-        ("sizes", powers, seeds.size_disc_key),
-        ("controls", [sizes["control"]], seeds.size_control_key),
-    ):
+    longer, roll_off = discs["longer_period"], discs["roll_off"]
+    changed = {
+        "longer_period": ("discs", longer["realizations"], {"period": longer["period"], "rms_over": "square"}),
+        "roll_off": ("discs", roll_off["realizations"], {"roll_off_wavelength": roll_off["wavelength"]}),
+    }
+    for variant in variants["cases"]:
+        properties = {key: value for key, value in variant.items() if key != "name"}
+        changed[variant["name"]] = ("variants", variants["realizations"], properties)
+    surface = settings["surface"] | UNIT_DISC
+    for hurst in discs["hurst"]:
+        for group, (pool, realizations, properties) in changed.items():
+            name, grid = f"{hurst_id(hurst)}_{group}", {"elements": discs["elements"], "realizations": realizations}
+            key = seeds.variant_key(hurst, group)
+            ensemble = _ensemble(name, key, surface | properties | {"hurst": hurst}, grid)
+            add(name, pool, group, discs["region_until_x"], [ensemble])
+    grids = {"coarse": (discs["hurst"], discs["coarse"]["elements"], discs["short_until_x"])}
+    grids["law"] = discs["law"]["hurst"], [discs["elements"]], settings["indentation"]["until_x"]
+    for group, (exponents, elements, until_x) in grids.items():
+        realizations = discs[group]["realizations"]
         ensembles = [
-            _ensemble(group, key(change["hurst"], grid["elements"]), surface | change, grid)
-            for change, grid in itertools.product(changes, sizes["discs"])
+            _ensemble(
+                group,
+                seeds.grid_disc_key(hurst, across),
+                surface | {"hurst": hurst},
+                {"elements": across, "realizations": realizations},
+            )
+            for hurst, across in itertools.product(sorted(exponents), sorted(elements))
         ]
-        cases[group] = _joint_case(ensembles, sizes["batch"], group, **shared)
+        add(group, group, group, until_x, ensembles)
     return cases
 
 
@@ -160,18 +152,13 @@ def line_cases(settings):
     - In an ensemble, the key `points` replaces the key `elements`, and there is no key `combination`.
     - In an ensemble, the value of the key `surface` contains arguments of self_affine_line.
     """
-    lines, sizes, cases = settings["lines"], settings["sizes"], {}
+    lines, cases = settings["lines"], {}
     names = ("amplitudes", "roll_off_wavelength", "roll_off_level")
     surface = {name: settings["surface"][name] for name in names} | UNIT_LINE
     for hurst in lines["hurst"]:
         line = _ensemble(hurst_id(hurst), seeds.line_key(hurst), surface | {"hurst": hurst}, lines)
         until_x = settings["indentation"]["until_x"]
         cases[line["name"]] = _joint_case([line], lines["batch"], "lines", pool="lines", until_x=until_x)
-    powers = [
-        _ensemble("sizes", seeds.size_line_key(hurst, grid["points"]), surface | {"hurst": hurst}, grid)
-        for hurst, grid in itertools.product(sizes["hurst"], sizes["lines"])
-    ]
-    cases["sizes"] = _joint_case(powers, sizes["batch"], "sizes", pool="size_lines", until_x=sizes["until_x"])
     return cases
 
 
@@ -304,16 +291,16 @@ def pool_groups(tables, pool):
     return [tables[POOL_KINDS[pool]][case]["group"] for case, _ in pool_batches(tables, pool)]
 
 
-def pool_jobs(tables):
-    """Return the Snakemake wildcards of every batch of every pool of curves, as a list of {name: value}.
+def pool_jobs(tables, pools):
+    """Return the Snakemake wildcards of every batch of these pools of curves, as a list of {name: value}.
 
     tables : {kind of surface: {name of a case: description}}
     """
     # {kind of surface: Snakemake wildcards whose value is the name of a case}
     names = {"discs": ["case"], "lines": ["line"], "measured": ["case", "scan"]}
     return [
-        dict.fromkeys(names[kind], case) | {"batch": batch, "kind": kind, "pool": pool}
-        for pool, kind in POOL_KINDS.items()
+        dict.fromkeys(names[POOL_KINDS[pool]], case) | {"batch": batch, "kind": POOL_KINDS[pool], "pool": pool}
+        for pool in pools
         for case, batch in pool_batches(tables, pool)
     ]
 

@@ -4,8 +4,8 @@ A seed consists of a root, the setting `seed`, and a spawn key. The first number
 stream; every part of the study has one stream. The other numbers are properties of a realization, such as its Hurst
 exponent, grid or combination, but never its position in a list. So the random numbers of a realization do not depend on
 other realizations, on their order, or on the number of cores. The numbers of the streams are part of every published
-result: do not change them, and give a new stream a new number. The numbers 7 and 17 belonged to parts
-that are gone.
+result: do not change them, and give a new stream a new number. The numbers 7, 9, 13 and 17 belonged to
+parts that are gone.
 
 Two parts have no stream. The bootstrap of the fits uses the root without a spawn key. The spawn key of a random
 indenter in the stability campaign is only the number of its test case (`random_indenter_key`), and the campaign has a
@@ -65,20 +65,12 @@ def failure_map_key():
 # Stream number 7 belonged to a table that no longer exists. Do not use this number again.
 
 
-def size_disc_key(hurst, elements):
-    """Return the spawn key of the discs whose curves are compared on several grids, from coarse to fine.
+def grid_disc_key(hurst, elements):
+    """Return the spawn key of the discs on coarse grids, and of the discs of the calibrated law.
 
     elements : number of elements across the disc
     """
     return _key(8, _millionths(hurst), elements)
-
-
-def size_line_key(hurst, points):
-    """Return the spawn key of the lines whose curves are compared on several grids, from coarse to fine.
-
-    points : number of points of the line
-    """
-    return _key(9, _millionths(hurst), points)
 
 
 def large_disc_key(elements):
@@ -100,14 +92,6 @@ def mdr_comparison_key(hurst, realization):
     The seed with this key spawns two seeds, one seed for the disc and one for the line.
     """
     return _key(12, _millionths(hurst), realization)
-
-
-def size_control_key(hurst, elements):
-    """Return the spawn key of the control discs on grids from coarse to fine. Their curves follow no power law.
-
-    elements : elements across the disc
-    """
-    return _key(13, _millionths(hurst), elements)
 
 
 def local_slope_key(hurst, group):

@@ -44,6 +44,7 @@ class Combination(Section):
 
 
 PERIOD = real(1, 16, unit="L")
+FOUR_ELEMENTS = "at least four elements"
 
 
 class LongerPeriod(Section):
@@ -51,10 +52,27 @@ class LongerPeriod(Section):
 
     period: PERIOD = meaning("period of the square that these discs are cut from")
     realizations: REALIZATIONS = meaning("surfaces per Hurst exponent, all with h = L = 1 m")
-    until_x: real(1e-14, 1e4) = meaning(
-        "X at which all of these curves end, beyond region (b)", also=f"{TEN_TIMES} `ensemble.x_low`"
-    )
-    batch: BATCH = meaning("realizations per job")
+
+
+class RollOffDiscs(Section):
+    """Control discs whose spectrum has no long waves, so that their curves follow no power law."""
+
+    wavelength: real(above=0, high=16, unit="L") = meaning("longest wavelength", also=FOUR_ELEMENTS)
+    realizations: REALIZATIONS = meaning("surfaces per Hurst exponent")
+
+
+class Coarse(Section):
+    """Discs on coarse grids, whose means are compared with the means on the grid of `discs.elements`."""
+
+    elements: several(whole(9, 4097), 1, 12, once=True) = meaning("elements across the discs of each grid")
+    realizations: REALIZATIONS = meaning("surfaces per Hurst exponent and grid")
+
+
+class LawDiscs(Section):
+    """Discs of Hurst exponents that `discs.hurst` lacks, for the calibrated law."""
+
+    hurst: HURST_EXPONENTS = meaning("Hurst exponents of these discs")
+    realizations: REALIZATIONS = meaning("surfaces per Hurst exponent, whose curves go on to `indentation.until_x`")
 
 
 class Discs(Section):
@@ -82,6 +100,13 @@ class Discs(Section):
         "result, but all of these curves are computed again"
     )
     longer_period: LongerPeriod
+    roll_off: RollOffDiscs
+    coarse: Coarse
+    law: LawDiscs
+    single_batch: BATCH = meaning("realizations per job of the ensembles that have a single combination")
+    region_until_x: real(above=0, high=1e4) = meaning(
+        "X at which curves end that only the fits in region (b) use", also=f"{TEN_TIMES} `ensemble.x_low`"
+    )
     combinations: several(Combination, 1, 99, once="number") = meaning(
         "combinations of force, viscosity, diameter and rms height, as in the paper's Fig. 2; each has its own "
         "surfaces. The nine values are ours, because the paper does not list its own"
@@ -92,7 +117,6 @@ AMPLITUDES = Literal["random", "fixed"]
 RMS_OVER = Literal["disc", "square"]
 ROLL_OFF_WAVELENGTH = real(above=0, high=16, unit="L") | None
 ROLL_OFF_LEVEL = real(0, 1)
-FOUR_ELEMENTS = "at least four elements"
 
 
 class Surface(Section):
@@ -127,16 +151,15 @@ class Variant(Section):
     model_config = ConfigDict(json_schema_extra={"minProperties": 2})
 
     name: text(
-        r"^(?!(base|controls|lines|longer_period|sizes)$)[a-z][a-z_]{2,30}$(?!\n)",
-        "a-z and _, at least three, not `base`, `controls`, `lines`, `longer_period`, `sizes`",
+        r"^(?!(base|coarse|law|lines|longer_period|roll_off)$)[a-z][a-z_]{2,30}$(?!\n)",
+        "a-z and _, at least three, not `base`, `coarse`, `law`, `lines`, `longer_period`, `roll_off`",
     ) = meaning("name in file names, tables and seeds")
     period: PERIOD = meaning("replaces `surface.period`", None)
     corners: bool = meaning("replaces `surface.corners`", None)
     amplitudes: AMPLITUDES = meaning("replaces `surface.amplitudes`", None)
     rms_over: RMS_OVER = meaning("replaces `surface.rms_over`", None)
     roll_off_wavelength: ROLL_OFF_WAVELENGTH = meaning(
-        "replaces `surface.roll_off_wavelength`; with 0.125 and no longer waves the power law must disappear: a "
-        "control",
+        "replaces `surface.roll_off_wavelength`",
         None,
         also=FOUR_ELEMENTS,
     )
@@ -150,10 +173,9 @@ class Variant(Section):
 
 
 class Variants(Section):
-    """Further ensembles of discs (h = L = 1 m), each with some choices of `surface` changed."""
+    """Further ensembles of discs (h = L = 1 m), each with some choices of `surface` changed, for the sensitivities."""
 
     realizations: REALIZATIONS = meaning("surfaces per variant and Hurst exponent")
-    batch: BATCH = meaning("realizations per job")
     cases: several(Variant, 0, 20, once="name") = meaning("the variants; each has a name and at least one further key")
 
 
@@ -437,51 +459,6 @@ class Stability(Section):
     )
 
 
-class DiscGrid(Section):
-    """A grid of discs."""
-
-    elements: whole(9, 4097) = meaning("elements across the discs of a grid")
-    realizations: REALIZATIONS = meaning(
-        "realizations of discs on this grid, for every Hurst exponent and for the control"
-    )
-
-
-class LineGrid(Section):
-    """A grid of lines."""
-
-    points: whole(16, 100_000_000) = meaning("points of the lines of a grid")
-    realizations: REALIZATIONS = meaning("realizations of lines on this grid, for every Hurst exponent")
-
-
-class Control(Section):
-    """Control discs with a roll-off, whose curves follow no power law."""
-
-    hurst: HURST = meaning(
-        "Hurst exponent of the control, discs of the same sizes with a roll-off; they have no power law"
-    )
-    roll_off_wavelength: ROLL_OFF_WAVELENGTH = meaning(
-        "longest wavelength of the power law of the control", also=f"{FOUR_ELEMENTS} of the coarsest grid"
-    )
-
-
-class Sizes(Section):
-    """Ensembles on grids from coarse to fine."""
-
-    hurst: HURST_EXPONENTS = meaning("Hurst exponents of discs and lines")
-    discs: several(DiscGrid, 1, 12, once="elements") = meaning("grids of the discs")
-    lines: several(LineGrid, 1, 24, once="points") = meaning("grids of the lines")
-    control: Control
-    windows: several(several(X, 2, 2), 0, 9, once=True) = meaning(
-        "first and last X of windows in which exponents on all grids are compared; in addition to the windows of "
-        "region (b), which move with the grid",
-        also="each at least a decade wide, within `ensemble.x_low` and `x_high`",
-    )
-    until_x: real(1e-14, 1e6) = meaning(
-        "X = F/(4GhL) at which the curves of all grids end", also=f"{TEN_TIMES} `ensemble.x_low`"
-    )
-    batch: BATCH = meaning("realizations per job, of all grids and Hurst exponents one after the other")
-
-
 class NestedGrid(Section):
     """A grid on which discs are indented, and also on all coarser grids of the list."""
 
@@ -532,7 +509,6 @@ class Settings(Section):
     reduction: Reduction
     methods: Methods
     stability: Stability
-    sizes: Sizes
     nested_grids: NestedGrids
 
     @model_validator(mode="after")

@@ -17,8 +17,7 @@ _RANGES = [
     ("periodic.x_low", "periodic.x_high", 10),
     ("media.times.low", "media.times.high", 10),
     ("ensemble.x_low", "indentation.until_x", 10),
-    ("ensemble.x_low", "sizes.until_x", 10),
-    ("ensemble.x_low", "discs.longer_period.until_x", 10),
+    ("ensemble.x_low", "discs.region_until_x", 10),
     ("scaling.stiffness_range.0", "scaling.stiffness_range.1", 1.01),
 ]
 
@@ -32,7 +31,7 @@ def contradictions(settings):
 
 
 def name_of(path):
-    """Return the name of a setting for messages, such as sizes.windows[0], from its path."""
+    """Return the name of a setting for messages, such as measured[0].spacing, from its path."""
     return "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in path).removeprefix(".")
 
 
@@ -55,10 +54,9 @@ def _unlike_lengths(settings):
 
 def _too_short_wave(settings):
     """Yield contradictions for each roll-off wavelength below four elements, since no grid resolves such waves."""
-    discs, lines = settings.sizes.discs, settings.sizes.lines
-    across, coarsest = settings.discs.elements, min(grid.elements for grid in discs)
-    every_grid = min(across, coarsest, settings.lines.points, *(grid.points for grid in lines))
-    waves = [(["surface", "roll_off_wavelength"], every_grid), (["sizes", "control", "roll_off_wavelength"], coarsest)]
+    across = settings.discs.elements
+    every_grid = min(across, settings.lines.points, *settings.discs.coarse.elements)
+    waves = [(["surface", "roll_off_wavelength"], every_grid), (["discs", "roll_off", "wavelength"], across)]
     waves += [(["variants", "cases", i, "roll_off_wavelength"], across) for i in range(len(settings.variants.cases))]
     waves.append((["periodic", "roll_off", "wavelength"], settings.periodic.points))
     for path, elements in waves:
@@ -69,8 +67,7 @@ def _too_short_wave(settings):
 
 
 def _empty_range(settings):
-    windows = [(f"sizes.windows.{i}.0", f"sizes.windows.{i}.1", 10) for i in range(len(settings.sizes.windows))]
-    for low_name, high_name, factor in _RANGES + windows:
+    for low_name, high_name, factor in _RANGES:
         paths = _path(low_name), _path(high_name)
         low, high = (_value(settings, path) for path in paths)
         if high < factor * low * (1 - 1e-9):  # the factor 1 − 1e-9 allows for rounding
@@ -80,7 +77,7 @@ def _empty_range(settings):
 
 
 def _path(name):
-    """Return the path of a setting from its name, such as ["sizes", "windows", 0] from "sizes.windows.0"."""
+    """Return the path of a setting from its name, such as ["scaling", "stiffness_range", 0]."""
     return [int(key) if key.isdecimal() else key for key in name.split(".")]
 
 
@@ -104,16 +101,6 @@ def _too_narrow_slope(settings):
         allowed = f"from 1/per_decade of ensemble, {1 / per_decade:.4g}"
         fault = f"{name_of(path)}: {width:g} decades hold no further abscissa"
         yield [path, ["ensemble", "per_decade"]], f"{fault}; allowed: {allowed}"
-
-
-def _window_outside(settings):
-    """Yield contradictions for each window of sizes.windows that is not within the range of the abscissae."""
-    low, high = settings.ensemble.x_low, settings.ensemble.x_high
-    for i, (first, last) in enumerate(settings.sizes.windows):
-        if first < low or last > high:
-            path = ["sizes", "windows", i]
-            complaint = f"{name_of(path)}: {shown([first, last])} is not within {low:g} to {high:g}"
-            yield [path, ["ensemble"]], f"{complaint}; allowed: windows from ensemble.x_low to x_high"
 
 
 def _wrong_medium(settings):
@@ -165,7 +152,6 @@ _RULES = (
     _too_short_wave,
     _empty_range,
     _too_narrow_slope,
-    _window_outside,
     _wrong_medium,
     _empty_crop,
     _unlike_spacings,

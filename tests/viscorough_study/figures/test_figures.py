@@ -1,6 +1,7 @@
 """Figures show the numbers of their tables, lie whole on their page, and say if their table has no rows."""
 
 import numpy as np
+import pandas as pd
 import pytest
 from matplotlib.text import Text
 
@@ -13,7 +14,7 @@ from viscorough_study.comparisons.histories import FORCE_CURVE, RECOVERY
 from viscorough_study.figures.exponent import SHIFT
 from viscorough_study.figures.failures import OUTCOMES
 from viscorough_study.figures.style import SMALL
-from viscorough_study.fits.conventions import fits
+from viscorough_study.fits.conventions import READINGS, fits
 from viscorough_study.robustness.outcomes import VERDICTS
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -24,10 +25,9 @@ def close(line, expected):
 
 
 @pytest.mark.long
-def test_figures_are_whole_and_no_text_is_too_small(drawn, scaling):
-    figures = drawn | {"no region": plot("conventions", without_region(scaling, 0.4), SHOWN)}
-    assert [name for name, figure in figures.items() if not whole_on_page(figure)] == []
-    for name, figure in figures.items():
+def test_figures_are_whole_and_no_text_is_too_small(drawn):
+    assert [name for name, figure in drawn.items() if not whole_on_page(figure)] == []
+    for name, figure in drawn.items():
         texts = [text for text in figure.findobj(Text) if text.get_text()]
         assert min(text.get_fontsize() for text in texts) >= SMALL, name
 
@@ -53,17 +53,11 @@ def expected_points(scaling):
     reduction, lambdas = published("reduction"), published("mdr_lambda")
     media, curves, interface = tables.media_table(), tables.interface_curves(), published("interface")
     lines = fits(scaling, SHOWN, source="lines", rms_convention="line")
-    discs = {"source": "discs", "case_group": "base"}
     interval = ("beta", "beta_low", "beta_high")
     yield "fig4_exponent", 0, points(lines, "hurst", *interval)
-    yield "fig4_exponent", 0, points(fits(scaling, SHOWN | discs), "hurst", *interval)
-    for change in ({}, {"average": "arithmetic"}, {"gamma": "with"}, {"case_group": "roll_off"}):
-        rows = fits(scaling, SHOWN | discs | change)
-        for name in interval:
-            less = rows[name] - rows["hurst"] / (1 + rows["hurst"])
-            yield "conventions", 0, points(rows.assign(less=less), "less", None)
-        rows = rows[rows["residual_fixed"] <= 0.1]
-        yield "conventions", 1, points(rows.assign(over=rows["zeta_fixed"] / (2 - rows["hurst"])), "over", None)
+    for reading, columns in READINGS.items():
+        rows = fits(scaling, SHOWN | columns, source="discs")
+        yield "fig4_exponent", 0, points(rows.assign(place=rows["hurst"] + SHIFT[reading]), "place", *interval)
     for panel, name in ((0, "stiffness"), (2, "area"), (3, "gap")):
         columns = [f"{name}_ratio{end}" for end in ("", "_low", "_high")]
         yield "reduction", panel, points(reduction.dropna(subset=columns), "x", *columns)
@@ -83,20 +77,18 @@ def expected_points(scaling):
     motions = dict(tuple(tables.histories_table().query("hurst == 0.9").groupby("motion")))
     yield "histories", 0, points(motions[FORCE_CURVE], "depth", "force", "direct")
     yield "histories", 1, points(motions[RECOVERY].query("time >= 0"), "time", "depth", "direct")
-    base = curves[curves["case_group"] == "base"]
-    yield "interface", 0, points(base, "x", "interface", "interface_low", "interface_high")
+    yield (
+        "interface",
+        0,
+        points(curves[curves["source"] == "discs"], "x", "interface", "interface_low", "interface_high"),
+    )
     yield "interface", 0, points(published("periodic"), "x", "g")
     yield "interface", 3, points(interface.query("source == 'discs'"), None, "u0", "u0_low")
-    for panel, rule in ((0, "default"), (2, "X = 0.01 to 0.1")):
-        table, line_rms = published("sizes").query("window_rule == @rule"), {"rms_convention": "line"}
-        yield "sizes", panel, points(fits(table, SHOWN | {"window_rule": rule}, source="discs"), None, "beta")
-        yield "sizes", panel + 1, points(fits(table, SHOWN | {"window_rule": rule}, **line_rms), None, "beta")
     fine = tables.FROM_TABLES["local_exponent"][0].query("finest == 1")
     fine = fine.assign(middle=fine["x_low"] * np.sqrt(10))
     for panel, quantity in enumerate(("whole", "interface")):
         yield "local_exponent", panel, points(fine[fine["quantity"] == quantity], "middle", "beta")
-    judged = fine.query("judged == 1 and quantity == 'whole'").assign(shifted=fine["hurst"] + SHIFT)
-    yield "fig4_exponent", 0, points(judged, "shifted", "beta", "beta_low", "beta_high")
+    yield "fig4_exponent", 0, points(pd.DataFrame(tables.FINE_GRIDS), "hurst", *interval)
 
 
 def test_figures_show_the_numbers_of_their_tables(drawn, scaling):
@@ -224,7 +216,7 @@ def test_law_has_the_band_and_the_number_of_discs_of_the_mean(drawn):
     bands = [band for band in law.collections if len(band.get_paths()) and len(band.get_paths()[0].vertices) > 10]
     heights = np.concatenate([band.get_paths()[0].vertices[:, 1] for band in bands])
     close([heights.min(), heights.max()], [1.02 / 1.1, 1.02 / 0.9])
-    discs = published("interface").query("source == 'discs' and across == 257 and case_group == 'base'")
+    discs = published("interface").query("source == 'discs' and across == 257 and hurst < 1")
     labels = [text.get_text() for text in law.get_legend().get_texts()]
     (number,) = set(discs["realizations"])
     hurst = ", ".join(f"{value:g}" for value in sorted(discs["hurst"]))
@@ -248,9 +240,10 @@ def test_exponent_of_what_has_no_region_and_intervals_beside_their_value(scaling
         values = [line for line in axes.lines if line.get_linestyle() == "None" and line.get_marker() not in "_|"]
         return axes, [line.get_xydata()[0] for line in values]
 
-    assert [hurst for hurst, _ in symbols(without_region(scaling, 0.4))[1]] == [0.1, 0.6, 0.9]
+    in_a = scaling[scaling["reading"] == "A"]
+    assert [round(hurst, 1) for hurst, _ in symbols(without_region(in_a, 0.4))[1]] == [0.1, 0.6, 0.9]
     assert not symbols(scaling[scaling["source"] == "lines"])[1]
-    beside = scaling.assign(beta_low=scaling["beta"] + 0.1, beta_high=scaling["beta"] + 0.3)
+    beside = in_a.assign(beta_low=in_a["beta"] + 0.1, beta_high=in_a["beta"] + 0.3)
     axes, drawn = symbols(beside)
     close(axes.containers[0].lines[2][0].get_segments()[0][:, 1] - drawn[0][1], [0.1, 0.3])
 

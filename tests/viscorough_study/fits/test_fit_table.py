@@ -4,14 +4,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from support.study import ELEMENTS, HURST, LIMITS, SHOWN, aggregate, ensemble, ensemble_of, pool_of, three_regions
+from support.study import LIMITS, SHOWN, aggregate, ensemble_of, pool_of, three_regions
 from viscorough import reference
 from viscorough.law import calibrated_law
 from viscorough.mdr import reduce
 from viscorough.surfaces.self_affine import self_affine_line
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.conventions import FITTED, GAMMA, select, zeta_scale
-from viscorough_study.fits.fit_table import COLUMNS, SIZES, calibrated, fit_rows, sizes_table
+from viscorough_study.fits.fit_table import COLUMNS, calibrated, fit_rows
 from viscorough_study.fits.intervals import with_interval
 from viscorough_study.fits.power_law import fit_power_law
 from viscorough_study.run.seeds import realization_seed
@@ -69,26 +69,14 @@ def test_without_a_region_rows_have_no_numbers():
         assert all(np.isnan(row[name]) for name in ("x_low", "x_high", "beta", "zeta", "lambda"))
 
 
-def test_every_grid_is_fitted_also_in_windows_of_fixed_x():
-    pool = pool_of([ensemble(hurst, "c", 1.2, scatter=0.0) for hurst in HURST], "sizes")
-    options = {"stiffness_range": (0.03, 0.3), **LIMITS, **BOOTSTRAP, "windows": [(1e-5, 1e-4), (1e-3, 1e-2)]}
-    table = sizes_table(pool, pool, **options)
-    assert list(table) == list(SIZES)
-    assert set(zip(table["source"], table["case_group"], strict=True)) == {("discs", "sizes"), ("lines", "sizes")}
-    assert set(table["elements"]) == {ELEMENTS}
-    fixed = table[table["window_rule"] == "X = 0.001 to 0.01"]
-    assert fixed.groupby("hurst").size().to_dict() == {0.6: 8, 0.9: 8}  # discs and lines; rms conventions; averages
-    np.testing.assert_allclose(fixed["beta"], reference.exponent_beta(fixed["hurst"]))
-
-
 def test_calibration_has_base_discs_and_lines_in_the_conventions_shown():
     rows = fitted(DISCS, lines=LINES) + fitted(DISCS, case_group="roll_off") + fitted(LINES, source="lines")
-    sizes = pd.concat([pd.DataFrame(fitted(DISCS, case_group="sizes")).assign(hurst=h) for h in (0.7, 0.8, 0.9)])
-    sizes = sizes.assign(elements=np.where(sizes["hurst"] == 0.9, 3209, 51433))
-    table = calibrated(pd.DataFrame(rows), sizes, conventions=SHOWN | {"gamma": "with"}, across=257)
+    law = pool_of([DISCS.assign_coords(hurst=hurst) for hurst in (0.7, 0.8)], "law")
+    options = {"stiffness_range": (0.03, 0.3), **LIMITS, **BOOTSTRAP}
+    table = calibrated(pd.DataFrame(rows), law, conventions=SHOWN | {"gamma": "with"}, **options)
     assert list(table) == list(calibrated_law.COLUMNS)
     assert table["source"].tolist() == ["discs", "discs", "lines"]
-    assert table["hurst"].tolist() == [0.7, 0.8, 0.7]  # only the sizes add an exponent, on the same grid
+    assert table["hurst"].tolist() == [0.7, 0.8, 0.7]  # the further discs add only the exponent that the table lacks
     assert table["lambda"].notna().tolist() == [True, False, False]
 
 

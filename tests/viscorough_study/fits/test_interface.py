@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from support.study import ensemble_of, pool_of
 from viscorough.law.calibrated_law import interface_velocity
@@ -51,20 +52,23 @@ def test_curves_of_single_elements_have_no_interface():
     assert curve.empty
 
 
-def test_tables_have_rows_of_every_grid():
-    """Lines are included if their Hurst exponents occur among the discs."""
-    grids = ((33, 797, 0.5), (33, 797, 0.7), (65, 3209, 0.5), (65, 3209, 0.9))
-    sizes = [
-        ensemble(lambda x: interface_velocity(x, *LAW), punch=punch_stiffness(n), elements=elements, hurst=h)
-        for n, elements, h in grids
-    ]
+def test_tables_have_rows_of_every_exponent():
+    """Lines are included if their Hurst exponents occur among the discs. The control has none."""
+
+    def discs(*exponents, elements=797, across=33):
+        punch = punch_stiffness(across)
+        return [
+            ensemble(lambda x: interface_velocity(x, *LAW), punch=punch, elements=elements, hurst=h) for h in exponents
+        ]
+
     lines = [ensemble(lambda x: interface_velocity(x, *LAW), punch=1.0, elements=64, hurst=h) for h in (0.3, 0.7)]
     lines = pool_of(lines, "lines").assign_coords(rms_convention=["line"])
-    pools = {"discs": pool_of(sizes[:2]), "size_discs": pool_of(sizes, "sizes"), "size_lines": lines, "lines": lines}
-    table, curves = interface_tables(**pools, fit=HOW, rms_convention="disc").values()
+    base = xr.concat([pool_of(discs(0.5, 0.7)), pool_of(discs(0.5), "roll_off")], "realization")
+    law = pool_of(discs(0.9, elements=3209, across=65), "law")
+    table, curves = interface_tables(base, law, lines, fit=HOW).values()
     assert (list(table), list(curves)) == (list(COLUMNS), list(CURVES))
-    assert table["case_group"].tolist() == ["base"] * 2 + ["sizes"] * 4 + ["lines"]
-    assert table["hurst"].tolist() == [0.5, 0.7, 0.5, 0.7, 0.5, 0.9, 0.7]
+    assert table["source"].tolist() == ["discs"] * 3 + ["lines"]
+    assert table["hurst"].tolist() == [0.5, 0.7, 0.9, 0.7]
     assert np.ptp(table["u0"]) < 0.01
-    assert table["kappa_c"].tolist() == [punch_stiffness(n) for n in (33, 33, 33, 33, 65, 65)] + [1.0]
-    assert len(curves.groupby(["case_group", "source", "across", "hurst"])) == len(table)
+    assert table["kappa_c"].tolist() == [punch_stiffness(n) for n in (33, 33, 65)] + [1.0]
+    assert len(curves.groupby(["source", "across", "hurst"])) == len(table)

@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 from support.study import NUMBERS, ROOT
-from viscorough_study.page.content import claims, failures, findings, in_short, measured, media, scale, verdict_counts
+from viscorough_study.page.content import claims, failures, findings, in_short, measured, scale, verdict_counts
 from viscorough_study.page.results import Results
 
 
@@ -90,12 +90,3 @@ def test_worst_error_of_the_models_is_a_stated_error():
     assert content["worst_model"].value == 0.3
     assert (content["cases"].value, content["warned"].value, content["unnoticed"].value) == (2, 2, 0)
     assert content["methods"]["MDR"] == {"stated": 1, "holds": 1}
-
-
-def test_media_have_exponents_at_both_ends_and_near_x_0_01():
-    table = pd.DataFrame(
-        {"medium": "kelvin_voigt", "hurst": 0.4, "x": [1e-4, 2e-2, 1e-2, 1.0], "exponent": [1.0, 0.5, 0.4, -9]}
-    )
-    (row,) = media(Results({"media": table}, {}))
-    assert (row["medium"], row["hurst"]) == ("Kelvin-Voigt", 0.4)
-    assert [row[name].value for name in ("first", "middle", "last")] == [1.0, 0.4, -9]

@@ -15,10 +15,11 @@ def test_spawn_keys_do_not_depend_on_order(settings):
     discs, lines = cases.disc_cases(settings), cases.line_cases(settings)
     all_cases = [*discs.values(), *lines.values()]
     keys = [ensemble["spawn_key"] for case in all_cases for ensemble in case["ensembles"]]
-    assert len(set(keys)) == len(keys) == 4 * 11 + 21 + 5 * (4 + 3) + 4
+    assert len(set(keys)) == len(keys) == 4 * (9 + 2 + 6) + 4 * 3 + 1 + 21
     assert cases.combined_ensembles(settings)["h01000_c3"]["spawn_key"] == (1, 100000, 3)
     assert discs["h01000_roll_off"]["ensembles"][0]["spawn_key"][:2] == (2, 100000)
-    assert discs["sizes"]["ensembles"][3]["spawn_key"] == (8, 100000, 257)
+    assert discs["coarse"]["ensembles"][2]["spawn_key"] == (8, 100000, 129)
+    assert discs["law"]["ensembles"][0]["spawn_key"] == (8, 1000000, 257)
     settings["discs"]["hurst"].reverse()
     settings["discs"]["combinations"].reverse()
     for name, case in cases.disc_cases(settings).items():
@@ -32,13 +33,13 @@ def test_every_case_is_in_one_pool(settings):
     assert set(pooled) == {(kind, case) for kind, table in tables.items() for case in table}
     assert cases.pool_batches(tables, "discs")[:2] == [("h01000", "0000-0039"), ("h01000", "0040-0079")]
     assert len(cases.pool_batches(tables, "discs")) == 4 * (2 + 1 + 1)
-    assert cases.pool_batches(tables, "size_lines") == [("sizes", "0000-0239")]
+    assert cases.pool_batches(tables, "law") == [("law", "0000-0011")]
 
 
 def test_curves_of_a_pool_are_in_the_folder_of_their_kind(settings):
     tables = {"discs": cases.disc_cases(settings), "lines": cases.line_cases(settings), "measured": {}}
-    assert cases.pool_curves(tables, "size_lines") == ["results/curves/lines/sizes/0000-0239.nc"]
-    assert cases.pool_groups(tables, "size_discs") == ["sizes", "controls"]
+    assert cases.pool_curves(tables, "lines")[0] == "results/curves/lines/h00000/0000-0499.nc"
+    assert cases.pool_groups(tables, "coarse") == ["coarse", "coarse"]
     combinations = cases.combination_curves(tables["discs"])
     assert combinations[0] == "results/curves/discs/h01000/0000-0039.nc"
     assert len(combinations) == 4 * 2
@@ -47,19 +48,18 @@ def test_curves_of_a_pool_are_in_the_folder_of_their_kind(settings):
 
 def test_batches_of_several_ensembles_hold_each_realization_once(settings):
     """Batches do not end where ensembles end. The test lists [ensemble, number] of all batches, in order."""
-    settings["sizes"] |= {"hurst": [0.1, 0.9], "batch": 7}
-    settings["sizes"]["discs"] = [{"elements": 33, "realizations": 9}, {"elements": 65, "realizations": 2}]
-    case = cases.disc_cases(settings)["sizes"]
+    settings["discs"] |= {"hurst": [0.1, 0.9], "single_batch": 7, "coarse": {"elements": [33, 65], "realizations": 9}}
+    case = cases.disc_cases(settings)["coarse"]
     members = [
         (*ensemble["spawn_key"], number)
         for batch in cases.batches(case)
         for ensemble in cases.batch_ensembles(case, batch)
         for number in range(*ensemble["numbers"])
     ]
-    sizes = [(100000, 33, 9), (100000, 65, 2), (900000, 33, 9), (900000, 65, 2)]
-    assert members == [(8, hurst, n, number) for hurst, n, numbers in sizes for number in range(numbers)]
+    grids = [(100000, 33), (100000, 65), (900000, 33), (900000, 65)]
+    assert members == [(8, *grid, number) for grid in grids for number in range(9)]
     assert cases.batch_ensembles(case, "0007-0013")[1]["surface"]["hurst"] == 0.1
-    assert case["indentation"]["until_x"] == settings["sizes"]["until_x"] != settings["indentation"]["until_x"]
+    assert case["indentation"]["until_x"] == settings["discs"]["short_until_x"] != settings["indentation"]["until_x"]
     assert case["indentation"]["tolerance"] == settings["discs"]["tolerance"] != settings["indentation"]["tolerance"]
 
 
@@ -88,12 +88,6 @@ def test_tenth_combination_is_a_separate_case(settings):
     assert {name: ten[name] for name in nine} == nine
     assert set(ten) - set(nine) == {f"{cases.hurst_id(hurst)}_10" for hurst in settings["discs"]["hurst"]}
     assert [ensemble["name"] for ensemble in ten["h01000_10"]["ensembles"]] == ["h01000_c10"]
-
-
-def test_compared_surfaces_differ_only_in_open_choices_of_the_paper(settings):
-    assert cases.surfaces_left_open(settings) == ["base"]  # without the control
-    surfaces = cases.surfaces_left_open(merged(settings, read_settings("paper")))
-    assert len(set(surfaces)) == len(surfaces) == 7
 
 
 @pytest.mark.parametrize("name", ["config", "paper"])

@@ -1,0 +1,327 @@
+# Rules of `snakemake beyond`: what goes beyond the paper. No rule of the default run uses their results; the page of the
+# default run shows published pictures.
+
+
+rule compare_periodic:
+    output:
+        csv="results/tables/periodic.csv",
+    log:
+        "results/logs/compare_periodic.log",
+    benchmark:
+        "results/benchmarks/compare_periodic.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        **without("periodic", "hurst"),
+        hursts=config["periodic"]["hurst"],
+        seed=config["seed"],
+        source=digest("compare_periodic"),
+    message:
+        "The control of two springs: periodic contact of the same spectra"
+    script:
+        "../scripts/compare_periodic.py"
+
+
+rule compare_reduction:
+    output:
+        csv="results/tables/reduction.csv",
+    log:
+        "results/logs/compare_reduction.log",
+    benchmark:
+        "results/benchmarks/compare_reduction.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        **chosen("discs", "elements", "realizations", "tolerance"),
+        **config["reduction"],
+        hursts=config["discs"]["hurst"],
+        seed=config["seed"],
+        source=digest("compare_reduction"),
+    message:
+        "Reduction of dimensionality against boundary elements, surface by surface"
+    script:
+        "../scripts/compare_reduction.py"
+
+
+rule compare_histories:
+    output:
+        csv="results/tables/histories.csv",
+    log:
+        "results/logs/compare_histories.log",
+    benchmark:
+        "results/benchmarks/compare_histories.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        hursts=config["discs"]["hurst"],
+        elements=config["direct"]["elements"],
+        seed=config["seed"],
+        source=digest("compare_histories"),
+    message:
+        "Any history of loading and unloading, against direct integration"
+    script:
+        "../scripts/compare_histories.py"
+
+
+rule compute_media:
+    input:
+        curves=cases.combination_curves(DISCS),
+    output:
+        csv="results/tables/media.csv",
+    log:
+        "results/logs/compute_media.log",
+    benchmark:
+        "results/benchmarks/compute_media.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        **config["media"],
+        discs=cases.first_combination(config),
+        rms_convention=config["figures"]["rms_convention"],
+        source=digest("compute_media"),
+    message:
+        "Kinetics in other media"
+    script:
+        "../scripts/compute_media.py"
+
+
+rule fit_interface:
+    input:
+        discs="results/ensembles/discs.nc",
+        law="results/ensembles/law.nc",
+        lines="results/ensembles/lines.nc",
+    output:
+        csv=["results/tables/interface.csv", "results/tables/interface_curves.csv"],
+    log:
+        "results/logs/fit_interface.log",
+    benchmark:
+        "results/benchmarks/fit_interface.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=4000,
+    params:
+        fit={
+            **config["interface"],
+            **chosen("scaling", "fraction_min", "resamples"),
+            "seed": config["seed"],
+        },
+        source=digest("fit_interface"),
+    message:
+        "Interface and punch in series"
+    script:
+        "../scripts/fit_interface.py"
+
+
+rule tabulate_literature:
+    input:
+        scaling="results/tables/scaling.csv",
+        interface="results/tables/interface.csv",
+        reduction="results/tables/reduction.csv",
+    output:
+        csv="results/tables/literature.csv",
+    log:
+        "results/logs/tabulate_literature.log",
+    benchmark:
+        "results/benchmarks/tabulate_literature.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        entries=read_yaml("resources/literature/stiffness.yaml"),
+        conventions=config["figures"],
+        source=digest("tabulate_literature"),
+    message:
+        "Results in the literature"
+    script:
+        "../scripts/tabulate_literature.py"
+
+
+rule tabulate_calibration:
+    input:
+        scaling="results/tables/scaling.csv",
+        law="results/ensembles/law.nc",
+    output:
+        csv="results/tables/calibration.csv",
+    log:
+        "results/logs/tabulate_calibration.log",
+    benchmark:
+        "results/benchmarks/tabulate_calibration.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        **config["scaling"],
+        conventions=config["figures"],
+        seed=config["seed"],
+        source=digest("tabulate_calibration"),
+    message:
+        "Calibrated exponents and prefactors"
+    script:
+        "../scripts/tabulate_calibration.py"
+
+
+rule tabulate_sensitivities:
+    input:
+        discs="results/ensembles/discs.nc",
+        variants="results/ensembles/variants.nc",
+    output:
+        csv="results/tables/sensitivities.csv",
+    log:
+        "results/logs/tabulate_sensitivities.log",
+    benchmark:
+        "results/benchmarks/tabulate_sensitivities.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=4000,
+    params:
+        **config["scaling"],
+        seed=config["seed"],
+        source=digest("tabulate_sensitivities"),
+    message:
+        "Exponents and prefactors in every convention"
+    script:
+        "../scripts/tabulate_sensitivities.py"
+
+
+use rule plot_surfaces as plot_interface with:
+    input:
+        table="results/tables/interface.csv",
+        curves="results/tables/interface_curves.csv",
+        literature="results/tables/literature.csv",
+        periodic="results/tables/periodic.csv",
+    output:
+        path=report(
+            "results/figures/interface.{format}",
+            caption="../report/figures/interface.rst",
+            category=category("8 Beyond the paper"),
+            labels={"result": "interface and punch in series", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_interface/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_interface/{format}.tsv"
+    params:
+        figure="interface",
+        source=digest("plot", figure="interface"),
+    message:
+        "Figure: interface and punch in series"
+
+
+use rule plot_surfaces as plot_reduction with:
+    input:
+        table="results/tables/reduction.csv",
+    output:
+        path=report(
+            "results/figures/reduction.{format}",
+            caption="../report/figures/reduction.rst",
+            category=category("8 Beyond the paper"),
+            labels={"result": "MDR, surface by surface", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_reduction/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_reduction/{format}.tsv"
+    params:
+        figure="reduction",
+        source=digest("plot", figure="reduction"),
+    message:
+        "Figure: MDR, surface by surface"
+
+
+use rule plot_surfaces as plot_media with:
+    input:
+        table="results/tables/media.csv",
+    output:
+        path=report(
+            "results/figures/media.{format}",
+            caption="../report/figures/media.rst",
+            category=category("8 Beyond the paper"),
+            labels={"result": "kinetics in other media", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_media/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_media/{format}.tsv"
+    params:
+        figure="media",
+        source=digest("plot", figure="media"),
+    message:
+        "Figure: kinetics in other media"
+
+
+use rule plot_surfaces as plot_histories with:
+    input:
+        table="results/tables/histories.csv",
+    output:
+        path=report(
+            "results/figures/histories.{format}",
+            caption="../report/figures/histories.rst",
+            category=category("8 Beyond the paper"),
+            labels={"result": "any history", "kind": "figure"},
+        ),
+    log:
+        "results/logs/plot_histories/{format}.log",
+    benchmark:
+        "results/benchmarks/plot_histories/{format}.tsv"
+    params:
+        figure="histories",
+        source=digest("plot", figure="histories"),
+    message:
+        "Figure: any history"
+
+
+rule make_beyond_page:
+    input:
+        literature="results/tables/literature.csv",
+        figures=expand("results/figures/{figure}.png", figure=BEYOND_FIGURES),
+    output:
+        page="results/beyond.html",
+    log:
+        "results/logs/make_beyond_page.log",
+    benchmark:
+        "results/benchmarks/make_beyond_page.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        source=[digest("make_beyond_page"), *text_digests(PAGE_TEXTS)],
+    message:
+        "The page of what goes beyond the paper"
+    script:
+        "../scripts/make_beyond_page.py"
+
+
+# ---- targets
+
+
+rule beyond:
+    """Periodic surfaces, the interface, other media and histories, the MDR disc by disc, and results/beyond.html."""
+    input:
+        "results/beyond.html",
+        "results/tables/calibration.csv",
+
+
+rule sensitivities:
+    """The table of β and ζ for every convention that the paper leaves open; it needs further ensembles of discs."""
+    input:
+        "results/tables/sensitivities.csv",

@@ -463,7 +463,9 @@ class NestedGrid(Section):
     """A grid on which discs are indented, and also on all coarser grids of the list."""
 
     elements: whole(3, 16385) = meaning("elements across the discs", also="odd")
-    surfaces: whole(20, 1_000_000) = meaning("discs that are indented on this grid and on all coarser grids")
+    surfaces: whole(0, 1_000_000) = meaning(
+        "discs that are indented on this grid and on all coarser grids", also="at least 20 on the finest grid"
+    )
     until_x: real(1e-6, 1.0) = meaning(
         "X = F/(4GhL) at which the curves end, with h over all waves of the spectrum",
         also="at most the value of the next coarser grid",

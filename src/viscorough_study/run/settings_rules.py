@@ -140,6 +140,9 @@ def _unlike_grids(settings):
                 yield [[*path, j]], f"{name}: {grid.elements} is even; allowed: odd numbers, whose grids share a centre"
             if j and grid.elements <= (before := ensemble.grids[j - 1]).elements:
                 yield [path], f"{name}: {grid.elements} comes after {before.elements}; allowed: from coarse to fine"
+            if j == len(ensemble.grids) - 1 and grid.surfaces < 20:
+                name = f"{name_of([*path, j])}.surfaces"
+                yield [[*path, j]], f"{name}: {grid.surfaces} on the finest grid; allowed: at least 20"
             if j and grid.until_x > (before := ensemble.grids[j - 1]).until_x:
                 fault = f"{shown(grid.until_x)} is above {shown(before.until_x)} of the next coarser grid"
                 yield [path], f"{name_of([*path, j])}.until_x: {fault}; allowed: at most that"

@@ -70,6 +70,7 @@ WRONG = [
     ({"lines": {"hurst": [0, 0.0, 0.1, 0.4, 0.6, 0.9]}}, "lines.hurst: 0 occurs twice; allowed: once"),
     (nested({"elements": 65}), "nested_grids.ensembles[0].grids[1].elements: 65 comes after 129; allowed: from coarse"),
     (nested({"elements": 258}), "nested_grids.ensembles[0].grids[1].elements: 258 is even; allowed: odd numbers"),
+    (nested({"surfaces": 19}), "nested_grids.ensembles[0].grids[1].surfaces: 19 on the finest grid; allowed: at least"),
     (nested({"until_x": 0.5}), "nested_grids.ensembles[0].grids[1].until_x: 0.5 is above 0.1 of the next coarser grid"),
     (
         {"scaling": {"slope_half_width": 0.01}},

@@ -15,8 +15,8 @@ BY_FOLDER = {
     "workflow": ["tests/workflow/test_form.py", "tests/workflow/test_run_with_progress.py"],
     "peers": ["tests/benchmarks/test_other_solvers.py"],
     "config": ["tests/viscorough_study/run/test_settings.py", "tests/docs/test_write_settings.py"],
-    "resources": ["tests/viscorough_study/verdicts/test_claims.py", "tests/benchmarks/test_pages.py"],
-    "docs": ["tests/docs/test_pages.py", "tests/benchmarks/test_pages.py"],
+    "resources": ["tests/viscorough_study/verdicts/test_claims.py", "tests/docs/test_quoted_numbers.py"],
+    "docs": ["tests/docs/test_pages.py", "tests/docs/test_quoted_numbers.py"],
 }
 
 

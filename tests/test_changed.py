@@ -16,7 +16,7 @@ import changed
         ("src/viscorough/contact/state.py", "tests/viscorough/contact/test_prescribed_depth.py"),
         ("benchmarks/slurm.py", "tests/benchmarks/test_slurm.py"),
         ("Snakefile", "tests/workflow/test_form.py"),
-        ("docs/theory.md", "tests/benchmarks/test_pages.py"),
+        ("docs/theory.md", "tests/docs/test_quoted_numbers.py"),
     ],
 )
 def test_changed_file_selects_existing_tests(name, some):

@@ -30,7 +30,7 @@ SMALL = 7  # size of the smallest text [points]
 DPI = 200  # resolution of PNG files [dots per inch]
 FEW_DECADES = 2.1  # logarithmic axes that span fewer decades also have ticks between decades
 # Largest root mean square of ln(vt/h) less a law with the exponent H/(1 + H), over region (b), for which the prefactor
-# of this law is defined (claim zeta_viscous).
+# of this law describes the curve.
 DEFINED = 0.1
 GREY, PALE = "0.4", "0.8"
 # The colours of Okabe and Ito, distinguishable with any colour vision.

@@ -78,11 +78,6 @@ def reading_of(case_group, rms_convention):
     return next((reading for reading, columns in READINGS.items() if columns == own), "")
 
 
-def as_text(conventions):
-    """Return conventions as text, such as "rms_convention disc, average geometric"."""
-    return ", ".join(f"{name} {value}" for name, value in conventions.items())
-
-
 def select(table, values):
     """Select rows from a table of fits, sort them by ascending H, and convert ζ by `in_reading`.
 

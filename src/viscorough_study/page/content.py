@@ -24,6 +24,7 @@ def claims(results):
     tolerance : Number
     cases : a dict for each case, with its name, the value expected by the paper (a Number), and for each reading the
         row of the table of verdicts (Results.record)
+    expected : True if the paper states a value for any case
     """
     verdicts, shown = verdicts_of(results.tables["claims"]), []
     for claim in (claim for claim in CLAIMS if claim.name in verdicts):
@@ -34,7 +35,7 @@ def claims(results):
             cases.append({"name": name, "expected": next(iter(records.values()))["expected"], "readings": records})
         tolerance = results.number("claims", rows.index[0], "tolerance")
         described = {"claim": claim, "verdict": verdict, "mark": mark(verdict.word), "tolerance": tolerance}
-        shown.append(described | {"cases": cases})
+        shown.append(described | {"cases": cases, "expected": rows["expected"].notna().any()})
     return shown
 
 

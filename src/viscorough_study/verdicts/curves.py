@@ -274,7 +274,7 @@ def last_region(evidence, tolerance):
 
 
 @claim(
-    title="this line begins when nearly the whole surface touches",
+    title="this final line begins when nearly the whole surface touches",
     sentence="region (c), where all curves have the slope 1, corresponds to an “almost complete” contact",
     where="Sec. III, region (c)",
     kind="own",

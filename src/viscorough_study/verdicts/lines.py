@@ -206,7 +206,7 @@ def line_area(evidence, tolerance):
     "treat",
     where="Secs. V and VI",
     kind="beyond",
-    quantity="mean gap of lines over that of discs at the centre of region (b); published results of `make paper`",
+    quantity="mean gap of lines over that of discs at the centre of region (b); published results of make paper",
     criterion="the mean gap of lines over that of the discs with the same spectrum (Eq. 13) is 1 up to a factor of 1 "
     "plus the tolerance at the centre of region (b)",
     tolerance=0.1,

@@ -24,15 +24,16 @@ DELIMITERS = (";", "\t", ",")
 _NAN = re.compile(r"(?<![^\s,;])[+-]?nan(?![^\s,;])", re.IGNORECASE)
 _NUMBER = re.compile(r"\s*[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|nan)\s*", re.ASCII | re.IGNORECASE)
 _NO_NUMBER = re.compile(r"[^0-9eE+\-.,; \t]")
+_FRACTION = re.compile(r"\d+(?:e[-+]?\d+)?", re.ASCII | re.IGNORECASE)
 # A comment may not contain a unit, a word that announces one, or a number after a colon or an equals sign.
 _STATEMENT = re.compile(
     r"(?<![^\W\d_])(?:[kcdmuµμnpf]?m|Å|inch|m?V|m?rad|deg|px)(?![^\W\d_])|°|[:=]\s*[-+]?[.,]?\d"
-    r"|(?i:met(?:er|re)|mi[ck]ron|mikrom|angstr|ångstr|unit|einheit|unité|pixel|spacing|resolution|scale)"
+    r"|(?i:(?:cell|size|d[xy]\b|step|pitch|width|length|distance|sampling)\w*\W*\d|met(?:er|re)|mi[ck]ron|mikrom|angstr|ångstr|unit|einheit|unité|pixel|spacing|resolution|scale)"
 )
 # A text with at most this many columns or rows may be a table of points, a profile or a record.
 _MOST_OF_TABLES = 6
 # A table of points has more than this many times as many rows as columns.
-_ELONGATION = 4
+_ELONGATION = 2
 # A row or column at the edge holds positions if at least this many numbers rise or fall in equal steps.
 _LEAST_LABELS = 4
 # Steps are equal if they differ from their mean by at most this share, as rounding of positions can cause.
@@ -135,7 +136,7 @@ def refuse_decimal_commas(rows: Sequence[str]) -> None:
     """Raise ValueError if the commas in rows without points may be decimal marks as well as delimiters."""
     cells = [row.split(",") for row in rows]
     fractions = [fraction.strip() for row in cells for fraction in row[1::2]]
-    in_pairs = len(cells[0]) % 2 == 0 and len(cells[0]) > 2 and all(map(str.isdecimal, fractions))
+    in_pairs = len(cells[0]) % 2 == 0 and len(cells[0]) > 2 and all(map(_FRACTION.fullmatch, fractions))
     if in_pairs and not any("." in row for row in rows):
         raise Refused("its commas may be decimal marks; another delimiter, and points as decimal marks, are needed")
 
@@ -158,7 +159,7 @@ def _refuse_tables(table: Array, name: str, delimiter: str | None) -> None:
         separated = f', float, "#", {delimiter!r}' if delimiter else ""
         raise Refused(_way_from_points(f'np.loadtxt("{name}"{separated})'))
     distinct = [np.unique(table[:, column]).size for column in (0, 1)]
-    are_points = columns <= _MOST_OF_TABLES and min(distinct) > 1 and distinct[0] * distinct[1] == rows
+    are_points = columns <= _MOST_OF_TABLES and min(distinct) > 1 and distinct[0] * distinct[1] <= 2 * rows
     if few < 3 or (few == 3 and many > 3) or (few <= _MOST_OF_TABLES and many > _ELONGATION * few) or are_points:
         reads = f"{spelled('viscorough reduce', 'read_line')} reads a profile from a single column of heights"
         raise Refused(

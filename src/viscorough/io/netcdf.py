@@ -187,7 +187,17 @@ def unpacked(variable: netCDF4.Variable) -> NDArray[Any]:
         if name == "_Unsigned" and str(value).lower() not in ("true", "false"):
             raise Refused(f"attribute _Unsigned of {variable.name} is {str(value)!r}; 'true' or 'false' is needed")
     variable.set_always_mask(False)
-    return variable[...]
+    values = variable[...]
+    if (
+        is_number
+        and variable.dtype.itemsize == 1
+        and np.ma.is_masked(values)
+        and not set(variable.ncattrs()) & {*_MARKS}
+    ):
+        number = netCDF4.default_fillvals[np.dtype(variable.dtype).str[1:]]
+        text = f"bytes of {variable.name} have the value {number}, which may mark missing values"
+        raise Refused(f"{text}; the attribute _FillValue is needed")
+    return values
 
 
 def read(path: FilePath, content: bytes | None = None) -> Content:

@@ -53,6 +53,7 @@ def test_comments_may_have_any_encoding(tmp_path, encoding):
         (text("\t").replace(".", ","), "one delimiter, and points as decimal marks"),
         ("1,5, 2,5, 3,5, 4,5\n" * 4, "its commas may be decimal marks"),
         ("1,5,-2,5,3,05,4,5\n" * 4, "its commas may be decimal marks"),
+        ("1,5e+00,-2,5e-01\n" * 4, "its commas may be decimal marks"),
         (text(",").replace("nan", ""), "line 2 has an empty cell; .* nan if one is missing"),
         (text(",").replace("\n", ",\n"), "line 1 has an empty cell"),
         ("\t1\t2\t3\n4\t5\t6\t\n" * 2, "line 1 has an empty cell"),
@@ -73,6 +74,7 @@ def test_texts_that_are_no_matrix_of_numbers_are_refused(tmp_path, content, what
     "comment",
     [
         *("Width: 10.00 µm", "Value units: m", "heights in nm", "step 0.5um", "1 pixel = 2", "dx = 0.5", "Bit2nm"),
+        *("cellsize 0.5", "Pixel Width 3", "dx 2", "step size 2"),
         *("x-length: 4000", "Einheit", "Z in Ångström", "micrometres", "rad", "20 °C", "in \N{GREEK SMALL LETTER MU}m"),
     ],
 )
@@ -93,6 +95,7 @@ GRID = np.array([[x, y, 10 * y + x] for y in (0, 2, 4) for x in (1.0, 2, 3, 4)])
         (np.random.default_rng(1).random((60, 3)), "three columns, as of points x, y, z"),
         (np.column_stack([GRID, GRID[:, :1]]), "may hold points or a profile"),
         (np.random.default_rng(1).random((30, 4)), "may hold points or a profile"),
+        (np.column_stack([GRID, GRID[:, :1]])[:7], "may hold points or a profile"),
         (GRID.T, "may hold points or a profile"),
         (GRID[:, :2], "a table of 12 by 2 may hold points or a profile; read_line reads a profile"),
         (np.column_stack([np.arange(6), np.random.default_rng(1).random((6, 6))]), "the first column rises or falls"),

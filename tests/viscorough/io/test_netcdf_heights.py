@@ -168,6 +168,15 @@ def test_counts_without_a_scale_are_refused(tmp_path, kind, attributes):
     assert read_heights(path, 1.0, scale=0.5).heights.tolist() == [[0.5, 1], [1.5, 4.5]]
 
 
+@pytest.mark.parametrize(("kind", "fill"), [("u1", 255), ("i1", -127)])
+def test_bytes_that_may_be_missing_are_refused(tmp_path, kind, fill):
+    """255 is white in an 8-bit picture, and the value of bytes that were not written."""
+    with refused(f"bytes of z have the value {fill}, which may mark missing values; the attribute _FillValue"):
+        read_heights(stored(tmp_path / "a.nc", kind, [[1, fill], [3, 4]], scale_factor=0.5), 1.0)
+    path = stored(tmp_path / "b.nc", kind, [[1, fill], [3, 4]], fill_value=fill, scale_factor=0.5)
+    np.testing.assert_array_equal(read_heights(path, 1.0).heights, [[0.5, np.nan], [1.5, 2]])
+
+
 def test_whole_heights_with_a_unit_are_read(tmp_path):
     path = stored(tmp_path / "a.nc", "f8", [[1, 2], [3, 9]], units="nm")
     assert read_heights(path, 1.0).heights.tolist() == [[1, 2], [3, 9]]

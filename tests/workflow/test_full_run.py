@@ -111,7 +111,7 @@ def test_scaling_table_has_every_ensemble(finished_once):
     ensembles = set(table[["source", "case_group", "hurst"]].itertuples(index=False, name=None))
     assert ensembles == {
         (source, group, hurst)
-        for source, group in (("discs", "base"), ("discs", "longer_period"), ("discs", "roll_off"), ("lines", "base"))
+        for source, group in (("discs", "base"), ("discs", "longer_period"), ("lines", "base"))
         for hurst in (0.4, 0.9)
     }
     # Both combinations are pooled. Only discs of the base group have lines to compare with.

@@ -59,7 +59,6 @@ FEW_STEPS = {"methods": {"levels": 3}, "validation": {"elements": [17, 31]}}
 FEW_STEPS |= {"stability": {"across": 11}, "direct": {"elements": 31}}
 OF_FEW_STEPS = {"measure_methods", "compare_exact", "map_failures", "compare_direct"}
 FITS = {"match_lambda", "compare_zeta_laws", "judge_claims"}
-OF_CONVENTIONS = FITS | {"compare_means", "plot_kinetics", "plot_master_curve", "plot_exponent"}
 
 
 @pytest.mark.parametrize(
@@ -67,11 +66,10 @@ OF_CONVENTIONS = FITS | {"compare_means", "plot_kinetics", "plot_master_curve", 
     [
         (FEW_STEPS, OF_FEW_STEPS),
         ({"scaling": {"stiffness_max": 0.25}}, FITS | {"fit_power_laws", "fit_local_slope"}),
-        ({"figures": {"average": "arithmetic"}}, OF_CONVENTIONS),
         ({"ensemble": {"per_decade": 25}}, {"aggregate_curves"}),
         ({"surface": {"period": 1.5}}, {"generate_discs", "generate_examples"}),
     ],
-    ids=["few steps", "scaling", "figures", "ensemble", "surface"],
+    ids=["few steps", "scaling", "ensemble", "surface"],
 )
 def test_changed_setting_reruns_only_the_rules_that_use_it(finished_once, tmp_path, with_dependents, changed, directly):
     planned = plan(finished_once, *TEST, settings_file(tmp_path, "changed", **changed))

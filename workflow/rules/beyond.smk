@@ -87,7 +87,7 @@ rule compute_media:
     params:
         **config["media"],
         discs=cases.first_combination(config),
-        rms_convention=config["figures"]["rms_convention"],
+        rms_convention=SHOWN["rms_convention"],
         source=digest("compute_media"),
     message:
         "Kinetics in other media"
@@ -142,7 +142,7 @@ rule tabulate_literature:
         mem_mb=1000,
     params:
         entries=read_yaml("resources/literature/stiffness.yaml"),
-        conventions=config["figures"],
+        conventions=SHOWN,
         source=digest("tabulate_literature"),
     message:
         "Results in the literature"
@@ -167,7 +167,7 @@ rule tabulate_calibration:
         mem_mb=1000,
     params:
         **config["scaling"],
-        conventions=config["figures"],
+        conventions=SHOWN,
         seed=config["seed"],
         source=digest("tabulate_calibration"),
     message:

@@ -107,6 +107,7 @@ try:
     from viscorough_study.run import cases
     from viscorough_study.run.kernels import KERNELS_BENCHMARK, compile_once
     from viscorough_study.run.made_with import difference, origin
+    from viscorough_study.run.names import SHOWN
     from viscorough_study.run.paper_data import read_paper, read_records
     from viscorough_study.run.scans import scans
     from viscorough_study.run.settings import changed_settings, complete_settings, path_shown, source_of

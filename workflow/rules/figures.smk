@@ -53,7 +53,7 @@ use rule plot_surfaces as plot_kinetics with:
             "combinations": {
                 name: ensemble["combination"] for name, ensemble in cases.combined_ensembles(config).items()
             },
-            "conventions": config["figures"],
+            "conventions": SHOWN,
             "fraction_min": config["scaling"]["fraction_min"],
         },
         source=digest("plot", figure="kinetics"),
@@ -81,7 +81,7 @@ use rule plot_surfaces as plot_master_curve with:
     params:
         figure="master_curve",
         options={
-            "conventions": config["figures"],
+            "conventions": SHOWN,
             "fraction_min": config["scaling"]["fraction_min"],
         },
         source=digest("plot", figure="master_curve"),
@@ -106,7 +106,7 @@ use rule plot_surfaces as plot_exponent with:
     params:
         figure="exponent",
         options={
-            "conventions": config["figures"],
+            "conventions": SHOWN,
             "hurst_range": paper("laws")["beta"]["hurst_range"],
             "fine_grids": judged_rows(PROJECT),
         },
@@ -291,7 +291,7 @@ use rule plot_surfaces as plot_measured with:
     params:
         figure="measured",
         options={
-            "conventions": config["figures"],
+            "conventions": SHOWN,
             "fraction_min": config["scaling"]["fraction_min"],
         },
         source=digest("plot", figure="measured"),

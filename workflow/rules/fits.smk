@@ -44,7 +44,7 @@ rule match_lambda:
         mem_mb=4000,
     params:
         fit=config["scaling"],
-        conventions=chosen("figures", "rms_convention", "average"),
+        conventions={name: SHOWN[name] for name in ("rms_convention", "average")},
         seed=config["seed"],
         source=digest("match_lambda"),
     message:
@@ -95,7 +95,7 @@ rule compare_zeta_laws:
     resources:
         mem_mb=2000,
     params:
-        average=config["figures"]["average"],
+        average=SHOWN["average"],
         hurst_mins=[0.0, paper("numbers")["agreement"]["beta_hurst_min"]["value"]],
         fit=without("scaling", "resamples"),
         resamples=config["scaling"]["resamples"],

@@ -69,7 +69,7 @@ rule compare_means:
     resources:
         mem_mb=2000,
     params:
-        conventions=config["figures"],
+        conventions=SHOWN,
         source=digest("compare_means"),
     message:
         "Cost and error of every model of the mean of many surfaces"

@@ -26,7 +26,7 @@ rule judge_claims:
     params:
         numbers=paper("numbers"),
         fine_grids=judged_rows(PROJECT),
-        conventions=config["figures"],
+        conventions=SHOWN,
         across=config["discs"]["elements"],
         limits=without("scaling", "stiffness_range", "resamples"),  # limits of region (b)
         resamples=config["scaling"]["resamples"],

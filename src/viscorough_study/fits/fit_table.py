@@ -20,6 +20,7 @@ from viscorough_study.ensembles.pool import ensembles, select
 from viscorough_study.fits.conventions import (
     FITTED,
     GAMMA,
+    READINGS,
     fits,
     interval_columns,
     reading_of,
@@ -29,6 +30,7 @@ from viscorough_study.fits.conventions import (
 from viscorough_study.fits.intervals import described, described_ends, three_columns, with_interval
 from viscorough_study.fits.mdr_lambda import match_lines
 from viscorough_study.fits.power_law import fit_power_law, in_window, log_means, named_windows
+from viscorough_study.run.names import SHOWN
 
 # {column: (long_name, units)}, in the order of the table. Columns of text have the units None.
 COLUMNS = {
@@ -56,26 +58,31 @@ COLUMNS = {
 def scaling_table(discs, lines, *, seed, **fit):
     """Fit power laws to the mean curve of every ensemble of discs and of lines, and find the factor λ (see the module).
 
-    An ensemble of discs has one Hurst exponent and one group: base, or a variant of the surfaces. An ensemble of lines
-    has one Hurst exponent. λ is found for each ensemble of the group base, from the lines with the same Hurst exponent.
+    There is an ensemble of discs for each reading of the surfaces (fits.conventions.READINGS) and each Hurst exponent,
+    and one of lines for each Hurst exponent. The fits are to geometric means, in region (b). λ is found for the discs
+    of reading A, from the lines with the same Hurst exponent. fits.sensitivities has the fits in all other conventions.
 
     discs, lines : pools (viscorough_study.ensembles.pool)
     seed, fit : further arguments of `fit_rows`
     Returns a pandas.DataFrame with the columns of `COLUMNS`.
     """
     lines, rows = ensembles(lines, "hurst"), []
-    for group in dict.fromkeys(discs["group"].values.tolist()):
+    shown = {"averages": (SHOWN["average"],), "rules": (SHOWN["window_rule"],), "seed": seed}
+    for reading, columns in READINGS.items():
+        group = columns["case_group"]
         for hurst, ensemble in ensembles(select(discs, group=group), "hurst").items():
-            logging.info("discs, %s, H = %g", group, hurst)
+            logging.info("discs, reading %s, H = %g", reading, hurst)
             labels = {"source": "discs", "case_group": group, "lines": lines[hurst] if group == "base" else None}
-            rows += fit_rows(ensemble, **labels, seed=seed, **fit)
+            rows += fit_rows(ensemble.sel(rms_convention=[columns["rms_convention"]]), **labels, **shown, **fit)
     for hurst, ensemble in lines.items():
         logging.info("lines, H = %g", hurst)
-        rows += fit_rows(ensemble, source="lines", case_group="base", seed=seed, **fit)
+        rows += fit_rows(ensemble, source="lines", case_group="base", **shown, **fit)
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
-def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **limits):
+def fit_rows(
+    ensemble, *, source, case_group, lines=None, averages=FITTED["average"], rules=None, resamples, seed, **limits
+):
     """Fit one ensemble with every definition of the rms height, kind of mean, and window (range of X) of the fit.
 
     Return a list of rows of the table, each a dict with the keys of `COLUMNS`. If a window does not exist for the
@@ -86,6 +93,7 @@ def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **lim
     lines : ensemble dataset of lines with the same Hurst exponent and abscissae, from which λ (see the module) is
         found, or None. λ is nan for `lines` = None, and if the lines do not reach the stiffness that the discs have at
         the centre of the window
+    averages, rules : kinds of mean, and names of windows, that are fitted; all if not given
     resamples, seed : number of resamples and seed of the bootstrap
     limits : arguments of viscorough_study.fits.power_law.named_windows, which finds the windows
     Raises ValueError if a window has fewer than three abscissae.
@@ -97,13 +105,15 @@ def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **lim
         ensemble_columns |= {"rms_convention": rms_convention, "realizations": selected.sizes["realization"]}
         ensemble_columns["reading"] = reading_of(case_group, rms_convention)
         windows = named_windows(selected, **limits)
-        for average in FITTED["average"]:
+        for average in averages:
             bootstrap = {"average": average, "resamples": resamples, "seed": seed}
             match = None
             if lines is not None and any(windows.values()):
                 velocities = (ensemble["velocity"].values for ensemble in (selected, lines.isel(rms_convention=0)))
                 match = match_lines(selected["x"].values, *velocities, **bootstrap)
             for rule, window in windows.items():
+                if rules and rule not in rules:
+                    continue
                 fitted = _fit(selected, match, window, **bootstrap) if window else {}
                 row = {"decades": 0.0, **ensemble_columns, "average": average, "window_rule": rule, **fitted}
                 rows.append({name: row.get(name, np.nan) for name in COLUMNS})

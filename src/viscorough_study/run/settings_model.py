@@ -268,20 +268,6 @@ class Periodic(Section):
     per_decade: whole(2, 100) = meaning("levels per decade of X")
 
 
-class Figures(Section):
-    """Conventions of the tables that the figures show."""
-
-    average: Literal["arithmetic", "geometric"] = meaning("mean over the realizations at fixed X")
-    rms_convention: Literal["disc", "square", "ensemble"] = meaning(
-        "h in X and vt/h; the rms height of the disc, that of the square it was cut from, or the rms height that the "
-        "spectrum has on average, the same for all realizations"
-    )
-    window_rule: Literal["default", "lower_half", "upper_half", "kappa"] = meaning("window of the fit")
-    gamma: Literal["without", "with"] = meaning(
-        "law without or with the factor 1/Γ(2−α); without: Eqs. 1 and 3, exact; with: Eq. 9"
-    )
-
-
 LIMIT = real(above=0, high=1)
 
 
@@ -503,7 +489,6 @@ class Settings(Section):
     scaling: Scaling
     interface: Interface
     periodic: Periodic
-    figures: Figures
     validation: Validation
     direct: Direct
     media: Media

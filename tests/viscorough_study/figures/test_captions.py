@@ -6,8 +6,8 @@ import jinja2
 import pytest
 from matplotlib.colors import to_hex
 
-from support.study import ROOT
-from support.workflow import FIGURES, RULES, read_settings
+from support.study import ROOT, SHOWN
+from support.workflow import FIGURES, RULES
 
 REPORT = ROOT / "workflow" / "report"
 
@@ -63,9 +63,9 @@ def test_texts_of_the_report_can_be_filled_in():
 
     The settings may have changed since the figure was drawn, so captions do not use them; changed params redraw it.
     """
-    conventions = {"conventions": read_settings("config")["figures"]}
+    conventions = {"conventions": SHOWN}
     for path in REPORT.rglob("*.rst"):
-        has_conventions = path.stem in FIGURES and '"conventions": config["figures"]' in RULES[FIGURES[path.stem]]
+        has_conventions = path.stem in FIGURES and '"conventions": SHOWN' in RULES[FIGURES[path.stem]]
         template = jinja2.Environment(undefined=jinja2.StrictUndefined).from_string(path.read_text(encoding="utf-8"))
         assert "{" not in template.render(snakemake={"params": {"options": conventions if has_conventions else {}}}), (
             path

@@ -10,7 +10,6 @@ import jsonschema
 import pytest
 
 from support.workflow import ROOT, merged, read_settings
-from viscorough_study.fits.conventions import VALUES
 from viscorough_study.run.settings import changed_settings, check_settings, complete_settings, resolved, schema
 
 COMBINATION = {"number": 1, "force": 1.0, "viscosity": 1.0, "diameter": 1.0, "rms": 1e-3}
@@ -163,12 +162,6 @@ def test_changed_settings_are_named_with_both_values():
     default = read_settings("config")
     changed = changed_settings(default, merged(default, {"seed": 5, "lines": {"points": 4096, "batch": 500}}))
     assert changed == {"seed": (5, 2013), "lines.points": (4096, 131072)}
-
-
-def test_settings_and_figures_have_the_same_conventions():
-    figures = resolved(schema()["properties"]["figures"])["properties"]
-    for name, values in VALUES.items():
-        assert sorted(figures[name]["enum"]) == sorted(values)
 
 
 def parts(rule, path=""):

@@ -34,7 +34,7 @@ _STATEMENT = re.compile(
 _MOST_OF_TABLES = 6
 # A table of points has more than this many times as many rows as columns.
 _ELONGATION = 2
-# A row or column at the edge holds positions if at least this many numbers rise or fall in equal steps.
+# A row or column at the edge holds positions if at least this many numbers, or all, rise or fall in equal steps.
 _LEAST_LABELS = 4
 # Steps are equal if they differ from their mean by at most this share, as rounding of positions can cause.
 _UNEVENNESS = 0.02
@@ -167,16 +167,17 @@ def _refuse_tables(table: Array, name: str, delimiter: str | None) -> None:
         )
     for vectors, edge in ((table.T, "column"), (table, "row")):
         for start in (0, 1):  # the corner of a table with positions along both edges may hold any number
-            if _is_even(vectors[0, start:]) and not _is_even(vectors[1, start:]):
+            least = min(_LEAST_LABELS, many)
+            if _is_even(vectors[0, start:], least) and not _is_even(vectors[1, start:], least):
                 raise Refused(f"the first {edge} rises or falls evenly, as positions do; heights alone are needed")
 
 
-def _is_even(values: Array) -> bool:
-    """Return True if values rise or fall in equal steps."""
+def _is_even(values: Array, least: int) -> bool:
+    """Return True if at least this number of values rise or fall in equal steps."""
     with np.errstate(all="ignore"):
         steps = np.diff(values)
         mean = steps.mean()
-        return values.size >= _LEAST_LABELS and mean != 0 and bool(np.abs(steps / mean - 1).max() <= _UNEVENNESS)
+        return values.size >= least and mean != 0 and bool(np.abs(steps / mean - 1).max() <= _UNEVENNESS)
 
 
 def _way_from_points(load: str) -> str:

@@ -97,6 +97,7 @@ GRID = np.array([[x, y, 10 * y + x] for y in (0, 2, 4) for x in (1.0, 2, 3, 4)])
         (np.random.default_rng(1).random((30, 4)), "may hold points or a profile"),
         (np.column_stack([GRID, GRID[:, :1]])[:7], "may hold points or a profile"),
         (GRID.T, "may hold points or a profile"),
+        (np.array([[0, 0.3, 1], [2, 0.1, 2], [4, 0.6, 3]]), "the first column rises or falls evenly"),
         (GRID[:, :2], "a table of 12 by 2 may hold points or a profile; read_line reads a profile"),
         (np.column_stack([np.arange(6), np.random.default_rng(1).random((6, 6))]), "the first column rises or falls"),
         (np.column_stack([np.arange(4), np.random.default_rng(1).random((4, 6))]), "the first column rises or falls"),

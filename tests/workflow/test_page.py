@@ -90,12 +90,15 @@ def test_page_loads_nothing_from_elsewhere(html, page):
     assert len(html.encode()) < LARGEST
     assert not {"link", "iframe", "base"} & {tag for tag, _ in page.elements}
     scripts = [set(attributes) for attributes in page.attributes("script")]
-    assert scripts == [{"id", "type"}, set(), set(), {"id", "type"}, set()], "data, uPlot, chart; law, calculator"
-    assert "url(" not in html
+    assert scripts == [{"id", "type"}, set(), {"id", "type"}, set(), set()], "law, calculator; data, uPlot, chart"
+    assert set(re.findall(r"url\(.", html)) == {"url(#"}
     assert "@import" not in html
     links = [attributes["href"] for _, attributes in page.elements if "href" in attributes]
     assert len(links) > 8
-    assert set(links) <= {f"#{name}" for name in page.ids}
+    outside = {link for link in links if not link.startswith("#")}
+    assert {link for link in outside if not link.startswith("..")} == {"https://doi.org/10.1103/PhysRevE.87.042802"}
+    assert all((ROOT / "results" / link).resolve().is_file() for link in outside if link.startswith(".."))
+    assert set(links) - outside <= {f"#{name}" for name in page.ids}
     assert len(page.ids) == len(set(page.ids))
     sources = [attributes["src"] for _, attributes in page.elements if "src" in attributes]
     assert all(source.startswith("data:") for source in sources)
@@ -185,6 +188,10 @@ def test_narrow_screen_needs_no_horizontal_scrolling(html, tmp_path):
     assert "<title>400</title>" in opened(path, "--hide-scrollbars", "--allow-file-access-from-files")
 
 
+READOUT = (
+    r"H = [\d.]+, F = \S+ N, η = \S+ Pa s, L = \S+ mm, h = \S+ µm: after \S+ s, \S+ µm/s, "
+    r"\S+ elements in contact \(median\); X = \S+, vt/h = \S+"
+)
 POINT = """
 <script>
 addEventListener("load", () => setTimeout(() => {
@@ -207,7 +214,7 @@ def test_chart_shows_the_curve_under_the_pointer_and_hides_curves(html, tmp_path
     shown = opened(tmp_path / "page.html", "--virtual-time-budget=5000")
     assert re.search(r'<div id="interactive" class="ready">', shown)
     title = re.search("<title>(.*?)</title>", shown)[1]
-    assert re.fullmatch(r"H = [\d.]+, combination \d: X = \S+, vt/h = \S+, \S+ elements in contact \(median\)", title)
+    assert re.fullmatch(READOUT, title)
     hidden = re.search(r'<button[^>]*aria-pressed="false"[^>]*>([\d.]+)</button>', shown)[1]
     assert not title.startswith(f"H = {hidden},")
 

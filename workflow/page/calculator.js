@@ -78,8 +78,8 @@ function announce(detail) {
   document.dispatchEvent(new CustomEvent("estimate", { detail }));
 }
 
-/** Write the estimate for the values of the form into the page. */
-function update(form, table, output) {
+/** Write the estimate for the values of the form into the page, and mark it in the chart if the reader entered them. */
+function update(form, table, output, marked) {
   const values = entered(form, table);
   announce(null);
   if (typeof values === "string") {
@@ -94,7 +94,7 @@ function update(form, table, output) {
     output.textContent = `X = ${readable(result.x)} is ${result.where} its range: no estimate. ${range}.`;
     return;
   }
-  announce({ x: result.x, velocity: (result.velocity[0] * values.time) / values.rms });
+  if (marked) announce({ x: result.x, velocity: (result.velocity[0] * values.time) / values.rms });
   const text = ([value, low, high]) => `${readable(1e6 * value)} [${readable(1e6 * low)}, ${readable(1e6 * high)}]`;
   output.textContent =
     `Depth ${text(result.depth)} µm, velocity ${text(result.velocity)} µm/s, at X = ${readable(result.x)}. ${range}.`;
@@ -104,7 +104,7 @@ if (typeof document !== "undefined") {
   const form = document.getElementById("calculator");
   const table = JSON.parse(document.getElementById("law").textContent);
   const output = document.getElementById("estimate-output");
-  form.addEventListener("input", () => update(form, table, output));
+  form.addEventListener("input", () => update(form, table, output, true));
   form.addEventListener("submit", (event) => event.preventDefault());
-  update(form, table, output);
+  update(form, table, output, false);
 }

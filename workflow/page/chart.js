@@ -16,6 +16,9 @@
     number >= 1e-3 && number < 1e5
       ? String(Number(number.toPrecision(3)))
       : number.toExponential(2).replace(/e([+-]\d+)$/, (_, power) => `×10${raised(Number(power))}`);
+  /** The force, viscosity, diameter and rms height of a curve, as text. */
+  const combination = ({ force, viscosity, diameter, rms }) =>
+    `F = ${digits(force)} N, η = ${digits(viscosity)} Pa s, L = ${digits(1e3 * diameter)} mm, h = ${digits(1e6 * rms)} µm`;
   const power = (value) => Math.round(Math.log10(value));
   const isPower = (value) => Math.abs(Math.log10(value) - power(value)) < 1e-6;
   const narrow = () => place.clientWidth < 450; // pixels; every second label has room
@@ -44,9 +47,75 @@
       return;
     }
     const curve = data.curves[nearest];
+    const time = (4 * data.x[idx] * curve.viscosity * curve.rms * curve.diameter) / curve.force;
+    const velocity = (curve.velocity[idx] * curve.rms) / time;
     readout.textContent =
-      `H = ${curve.hurst}, combination ${curve.combination.replace(/^c/, "")}: X = ${digits(data.x[idx])}, ` +
-      `vt/h = ${digits(curve.velocity[idx])}, ${digits(curve.elements[idx])} elements in contact (median)`;
+      `H = ${curve.hurst}, ${combination(curve)}: after ${digits(time)} s, ${digits(1e6 * velocity)} µm/s, ` +
+      `${digits(curve.elements[idx])} elements in contact (median); X = ${digits(data.x[idx])}, ` +
+      `vt/h = ${digits(curve.velocity[idx])}`;
+  }
+
+  /** Draw the two limits, and write the Hurst exponents beside the curves, where they lie farthest apart. */
+  function label(self) {
+    const { ctx } = self;
+    const { left, top, width, height } = self.bbox;
+    const ratio = devicePixelRatio;
+    const at = (x, y) => [self.valToPos(x, "x", true), self.valToPos(y, "y", true)];
+    const write = (text, x, y, color) => {
+      ctx.lineWidth = 4 * ratio;
+      ctx.strokeStyle = "#ffffff";
+      ctx.strokeText(text, x, y);
+      ctx.fillStyle = color;
+      ctx.fillText(text, x, y);
+    };
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(left, top, width, height);
+    ctx.clip();
+    ctx.font = `${14 * ratio}px system-ui, "DejaVu Sans", sans-serif`;
+    ctx.textBaseline = "middle";
+    data.limits.forEach((limit, i) => {
+      ctx.beginPath();
+      for (const x of [self.scales.x.min, self.scales.x.max]) ctx.lineTo(...at(x, x * limit.ratio));
+      ctx.setLineDash([6 * ratio, 5 * ratio]);
+      ctx.lineWidth = 1.2 * ratio;
+      ctx.strokeStyle = "#5a6675";
+      ctx.stroke();
+      ctx.setLineDash([]);
+      const y = top + (i ? 0.94 : 0.12) * height; // the first label stands left of its line, the second right of it
+      const x = self.valToPos(self.posToVal((y - top) / ratio, "y") / limit.ratio, "x", true);
+      ctx.textAlign = i ? "left" : "right";
+      write(limit.label, x + (i ? 10 : -10) * ratio, y, "#4d5562");
+    });
+    const first = values("hurst").map((hurst) => data.curves.findIndex((c, i) => c.hurst === hurst && self.series[i + 1].show));
+    const drawn = first.filter((i) => i >= 0);
+    const spread = data.x.map((x, k) => {
+      const logs = drawn.map((i) => data.curves[i].velocity[k]).filter((v) => v !== null).map(Math.log);
+      return logs.length < drawn.length ? -1 : Math.max(...logs) - Math.min(...logs);
+    });
+    const widest = drawn.length > 1 ? spread.indexOf(Math.max(...spread)) : Math.round(data.x.length / 2);
+    const upper = Math.ceil(drawn.length / 2);
+    const step = 20 * ratio;
+    drawn.forEach((i, place) => {
+      const curve = data.curves[i];
+      if (curve.velocity[widest] === null) return;
+      const above = place < upper;
+      const [x, y] = at(data.x[widest], curve.velocity[widest]);
+      const rank = above ? upper - place : place - upper + 1; // 1 for the labels next to the curves
+      const [, edge] = at(data.x[widest], data.curves[drawn[above ? 0 : drawn.length - 1]].velocity[widest]);
+      const height = edge + (above ? -1 : 1) * (30 * ratio + (rank - 1) * step);
+      const end = x + (above ? -34 : 34) * ratio;
+      ctx.beginPath();
+      ctx.moveTo(x, y);
+      ctx.lineTo(end, height);
+      ctx.lineWidth = ratio;
+      ctx.strokeStyle = curve.color;
+      ctx.stroke();
+      ctx.textAlign = above ? "right" : "left";
+      const kind = place === 0 ? ", rugged" : place === drawn.length - 1 ? ", smooth" : "";
+      write(`H = ${curve.hurst}${kind}`, end + (above ? -4 : 4) * ratio, height, "#1c2430");
+    });
+    ctx.restore();
   }
 
   /** Draw the curve under the pointer thicker, and the estimate of the calculator as a ring. */
@@ -105,9 +174,9 @@
       legend: { show: false },
       cursor: { drag: { setScale: false }, points: { show: false } },
       scales: { x: { time: false, distr: 3 }, y: { distr: 3 } },
-      axes: [axis("X = Ft/(4ηhL)"), { ...axis("vt/h"), size: 58 }],
+      axes: [axis("time without unit, X = Ft/(4ηhL)"), { ...axis("velocity without unit, vt/h"), size: 58 }],
       series: [{}, ...data.curves.map((curve) => ({ stroke: curve.color, width: 1.2, points: { show: false } }))],
-      hooks: { setCursor: [point], draw: [mark] },
+      hooks: { setCursor: [point], draw: [label, mark] },
     },
     [data.x, ...data.curves.map((curve) => curve.velocity)],
     place,
@@ -123,6 +192,7 @@
       button.type = "button";
       button.textContent = property === "hurst" ? value : value.replace(/^c/, "");
       button.setAttribute("aria-pressed", "true");
+      if (property === "combination") button.title = combination(data.curves.find((curve) => curve.combination === value));
       if (property === "hurst") {
         button.style.borderColor = data.curves.find((curve) => curve.hurst === value).color;
       }
@@ -143,7 +213,7 @@
     return group;
   }
 
-  document.getElementById("chart-switches").append(switches("hurst", "H:"), switches("combination", "combination:"));
+  document.getElementById("chart-switches").append(switches("hurst", "H:"), switches("combination", "F, η, L, h:"));
   document.getElementById("interactive").classList.add("ready");
   plot.setSize(size());
   window.addEventListener("resize", () => plot.setSize(size()));

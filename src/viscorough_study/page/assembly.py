@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import yaml
+from markupsafe import Markup
 
 from viscorough_study.fits.fine_sentence import fine_grids_sentence, judged_rows
 from viscorough_study.page import content
@@ -23,12 +24,13 @@ PUBLISHED_PICTURES = {"local_exponent": "make fine-grids"} | dict.fromkeys(
 )
 
 
-def page_of(project, discs, figures, *, fraction_min, **run):
+def page_of(project, discs, figures, *, combinations, fraction_min, **run):
     """Return the HTML of the page.
 
     project : folder of the project, which contains templates, captions, published numbers, and the picture of the rules
     discs : NetCDF file with the loading curves of all discs of the run (ensembles.pool)
     figures : paths of the figures; the name of a file without suffix is the name of the figure
+    combinations : {name of the ensemble: force [N], viscosity [Pa s], diameter [m], rms [m]}
     fraction_min : least share of the realizations behind a mean of the interactive Figure 2
     run : further arguments of `contents_of`
     """
@@ -41,7 +43,8 @@ def page_of(project, discs, figures, *, fraction_min, **run):
         "published_pictures": PUBLISHED_PICTURES,
         "alternative": yaml.safe_load((folder / "figures.yaml").read_text("utf-8")),
         "calculator": calculator(folder),
-        "chart": chart(folder, discs, contents["conventions"], fraction_min),
+        "chart": chart(folder, discs, combinations, contents["conventions"], fraction_min),
+        "sketch": Markup((folder / "sketch.svg").read_text("utf-8")),
         "rules": embedded_png((project / "docs/rules.png").read_bytes()),
     }
     return render(template, style, figures, captions, **parts, **contents)
@@ -62,6 +65,7 @@ def contents_of(project, discs, lines, *, tables, numbers, made_by, changed, fil
     results = read_results(tables, made_by)
     conventions = results.settings["claims"]["conventions"]
     claims = content.claims(results)
+    texts = yaml.safe_load((project / "workflow/page/in_short.yaml").read_text("utf-8"))
     costs = split_table(tables["rule_costs"])[0]
     return {
         "results": results,
@@ -71,7 +75,7 @@ def contents_of(project, discs, lines, *, tables, numbers, made_by, changed, fil
         "claims": claims,
         "findings": content.findings(claims),
         "fine_grids": fine_grids_sentence(judged_rows(project)),
-        "in_short": content.in_short(claims),
+        "in_short": content.in_short(claims, texts),
         "verdict_counts": content.verdict_counts(results),
         "mark": content.mark,
         "kinds": KINDS,

@@ -56,16 +56,20 @@ def findings(shown):
     return list(groups.items())
 
 
-def in_short(shown):
-    """Group the paper's own claims by how they fare: [(heading, claims)], without groups that have no claim."""
-    own = [claim for claim in shown if claim["claim"].kind == "own"]
+def in_short(shown, texts):
+    """Group the paper's own claims by how they fare: [(heading, [(claim, text)])], without empty groups.
+
+    shown : result of `claims`
+    texts : {name of a claim: what it says, in a few words}; claims without a text are left out
+    """
     headings = {
         "Right": ("holds",),
-        "Right in part, or in one reading of the paper": ("holds in A", "holds in B", "in part"),
+        "Holds in part, or in one reading of the paper": ("holds in A", "holds in B", "in part"),
         "Undecided": ("undecided",),
         "Not found": ("not",),
     }
-    groups = {heading: [c for c in own if c["verdict"].word in words] for heading, words in headings.items()}
+    named = [(claim, texts[claim["claim"].name]) for claim in shown if claim["claim"].name in texts]
+    groups = {heading: [c for c in named if c[0]["verdict"].word in words] for heading, words in headings.items()}
     return [(heading, members) for heading, members in groups.items() if members]
 
 

@@ -101,4 +101,5 @@ def caption(text, conventions):
     # Files docutils.conf of the user, which would change captions unseen, are ignored.
     options = {"report_level": 2, "halt_level": 2, "_disable_config": True}
     parts = publish_parts(text, writer="html5", settings_overrides=options)
-    return Markup(re.sub(r'<(tt|span) class="docutils literal">(.*?)</\1>', r"<code>\2</code>", parts["body"]))
+    body = re.sub(r'<span class="pre">(.*?)</span>', r"\1", parts["body"])  # the words of a text in ``
+    return Markup(re.sub(r'<(tt|span) class="docutils literal">(.*?)</\1>', r"<code>\2</code>", body))

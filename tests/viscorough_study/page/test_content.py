@@ -1,11 +1,13 @@
 """Content of the page about the scale, the methods and other solvers."""
 
 import json
+from itertools import combinations
 
 import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+import yaml
 
 from support.study import NUMBERS, ROOT
 from viscorough_study.page.content import claims, failures, findings, in_short, measured, scale, verdict_counts
@@ -58,6 +60,7 @@ def test_numbers_stand_in_the_rows_for_which_they_are_shown():
     assert measured(Results({}, {}), conventions) == {"scans": [], "contacts": [], "groups": []}
 
 
+IN_SHORT = yaml.safe_load((ROOT / "workflow/page/in_short.yaml").read_text(encoding="utf-8"))
 CLAIMS = pd.read_csv(ROOT / "docs/claims.csv").fillna({"reading": "", "note": ""})
 PUBLISHED = Results({"claims": CLAIMS}, {})
 
@@ -73,14 +76,21 @@ def test_every_case_is_shown_once_in_each_reading():
                 assert case["expected"].value == pytest.approx(row["expected"].value, nan_ok=True)
 
 
-def test_findings_hold_every_claim_but_identities_and_own_claims_are_in_short():
+def test_findings_hold_every_claim_but_identities():
     shown = claims(PUBLISHED)
     grouped = [claim["claim"].name for figure, members in findings(shown) for claim in members]
     assert sorted(grouped) == sorted(c["claim"].name for c in shown if c["claim"].kind != "identity")
     assert all(claim["claim"].figure == figure for figure, members in findings(shown) for claim in members)
-    short = [claim["claim"].name for _, members in in_short(shown) for claim in members]
-    assert sorted(short) == sorted(c["claim"].name for c in shown if c["claim"].kind == "own")
     assert [sum(number.value for number in counts) for counts in verdict_counts(PUBLISHED).values()] == [15, 5]
+
+
+def test_lines_in_short_group_own_claims_by_their_verdicts():
+    groups = in_short(claims(PUBLISHED), IN_SHORT)
+    named = [(claim["claim"], text) for _, members in groups for claim, text in members]
+    assert {claim.name: text for claim, text in named} == IN_SHORT
+    assert {claim.kind for claim, _ in named} == {"own"}
+    words = [{claim["verdict"].word for claim, _ in members} for _, members in groups]
+    assert all(a.isdisjoint(b) for a, b in combinations(words, 2))
 
 
 def test_worst_error_of_the_models_is_a_stated_error():

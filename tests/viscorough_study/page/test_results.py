@@ -47,9 +47,9 @@ def test_results_give_numbers_with_their_table_cells(tmp_path):
 
 
 def test_captions_become_html_with_the_conventions_of_the_figures():
-    text = 'One x & ``setting``.\n\nMean: {{ snakemake.params.options["conventions"]["average"] }}.'
+    text = 'One x & ``make fine-grids``.\n\nMean: {{ snakemake.params.options["conventions"]["average"] }}.'
     html = caption(text, {"average": "geometric"})
-    assert html.split("\n")[:2] == ["<p>One x &amp; <code>setting</code>.</p>", "<p>Mean: geometric.</p>"]
+    assert html.split("\n")[:2] == ["<p>One x &amp; <code>make fine-grids</code>.</p>", "<p>Mean: geometric.</p>"]
 
 
 def test_docutils_settings_of_the_user_change_no_caption(tmp_path, monkeypatch):

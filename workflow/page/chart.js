@@ -82,7 +82,7 @@
       ctx.strokeStyle = "#5a6675";
       ctx.stroke();
       ctx.setLineDash([]);
-      const y = top + (i ? 0.94 : 0.12) * height; // the first label stands left of its line, the second right of it
+      const y = top + (i ? 0.5 : 0.12) * height; // the first label stands left of its line, the second right of it
       const x = self.valToPos(self.posToVal((y - top) / ratio, "y") / limit.ratio, "x", true);
       ctx.textAlign = i ? "left" : "right";
       write(limit.label, x + (i ? 10 : -10) * ratio, y, "#4d5562");
@@ -112,7 +112,7 @@
       ctx.strokeStyle = curve.color;
       ctx.stroke();
       ctx.textAlign = above ? "right" : "left";
-      const kind = place === 0 ? ", rugged" : place === drawn.length - 1 ? ", smooth" : "";
+      const kind = narrow() ? "" : place === 0 ? ", rugged" : place === drawn.length - 1 ? ", smooth" : "";
       write(`H = ${curve.hurst}${kind}`, end + (above ? -4 : 4) * ratio, height, "#1c2430");
     });
     ctx.restore();
@@ -156,7 +156,7 @@
 
   const size = () => ({
     width: place.clientWidth,
-    height: Math.round(Math.min(430, Math.max(260, 0.6 * place.clientWidth))),
+    height: Math.round(Math.min(430, Math.max(340, 0.6 * place.clientWidth))),
   });
   const axis = (label) => ({
     label,

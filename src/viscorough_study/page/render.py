@@ -23,6 +23,10 @@ TYPESET = {
     "1/Γ(2 − α)": r"1/\Gamma(2-\alpha)",
     "vt/h": "vt/h",
 }
+# Letters that stand for quantities, alone or as products such as ηhL; not the initials of an author.
+QUANTITIES = re.compile(r"(?<![^\W\d])(?<![&;'])(?:[FGHLXhtuvαβζηκλτ]+₀?|ηs|FJ)(?![\w'])(?!\. Popov)")
+# Parts of HTML whose text is not set again: tags, and elements that typeset or run their text.
+FINISHED = re.compile(r"(<(script|style|svg|math|code|title)\b.*?</\2>|<[^>]*>)", re.DOTALL)
 WIDE = 600  # on a phone, images that are wider than this number of pixels can be scrolled
 
 
@@ -36,13 +40,22 @@ def render(template, style, figures, captions, *, conventions, **content):
     content : variables of the template
     """
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, lstrip_blocks=True)
-    environment.filters |= {"number": number, "percent": percent, "tex": tex, "formulas": formulas}
+    environment.filters |= {"number": number, "percent": percent, "tex": tex, "formulas": formulas, "begun": begun}
     environment.globals |= {
         "image": {name: embedded_png(Path(path).read_bytes()) for name, path in figures.items()},
         "caption": {name: caption(Path(path).read_text("utf-8"), conventions) for name, path in captions.items()},
         "style": Markup(style),
     }
-    return environment.from_string(template).render(content)
+    return symbols(environment.from_string(template).render(content))
+
+
+def symbols(html):
+    """Return HTML in which the letters of quantities are marked as variables, which browsers set in italics."""
+    parts, start = [], 0
+    for finished in FINISHED.finditer(html):
+        parts += [QUANTITIES.sub(r"<var>\g<0></var>", html[start : finished.start()]), finished[0]]
+        start = finished.end()
+    return "".join([*parts, QUANTITIES.sub(r"<var>\g<0></var>", html[start:])])
 
 
 def tex(text):
@@ -57,6 +70,11 @@ def formulas(text):
         tex(TYPESET[part]) if part in TYPESET else part.replace(" = ", "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}")
         for part in parts
     )
+
+
+def begun(text):
+    """Return a text that begins a sentence, with a capital letter unless it begins with a quantity such as vt/h."""
+    return text if QUANTITIES.match(text) else text[0].upper() + text[1:]
 
 
 def number(value, scale=1, unit=""):

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from support.page import Page, number_in
-from viscorough_study.page.render import caption, number, percent
+from viscorough_study.page.render import begun, caption, number, percent, symbols
 from viscorough_study.page.results import Number, Results, read_results
 from viscorough_study.run.readable import readable
 from viscorough_study.run.tables import write_table
@@ -50,6 +50,13 @@ def test_captions_become_html_with_the_conventions_of_the_figures():
     text = 'One x & ``make fine-grids``.\n\nMean: {{ snakemake.params.options["conventions"]["average"] }}.'
     html = caption(text, {"average": "geometric"})
     assert html.split("\n")[:2] == ["<p>One x &amp; <code>make fine-grids</code>.</p>", "<p>Mean: geometric.</p>"]
+
+
+def test_letters_of_quantities_are_set_as_variables_wherever_they_stand_alone():
+    html = '<p title="at H">vt/h = X at H = 0.4, 4ηhL; L. Popov&#39;s line is F</p><code>H</code> <math>H</math>'
+    wanted = "<var>vt</var>/<var>h</var> = <var>X</var> at <var>H</var> = 0.4, 4<var>ηhL</var>; L. Popov&#39;s line is "
+    assert symbols(html) == f'<p title="at H">{wanted}<var>F</var></p><code>H</code> <math>H</math>'
+    assert [begun("vt/h is"), begun("the curves")] == ["vt/h is", "The curves"]
 
 
 def test_docutils_settings_of_the_user_change_no_caption(tmp_path, monkeypatch):

@@ -90,7 +90,9 @@ def test_page_loads_nothing_from_elsewhere(html, page):
     assert len(html.encode()) < LARGEST
     assert not {"link", "iframe", "base"} & {tag for tag, _ in page.elements}
     scripts = [set(attributes) for attributes in page.attributes("script")]
-    assert scripts == [{"id", "type"}, set(), {"id", "type"}, set(), set()], "law, calculator; data, uPlot, chart"
+    assert scripts == [{"id", "type"}, set(), {"id", "type"}, set(), set(), set()], (
+        "law, calculator; data, uPlot, chart; origin"
+    )
     assert set(re.findall(r"url\(.", html)) == {"url(#"}
     assert "@import" not in html
     links = [attributes["href"] for _, attributes in page.elements if "href" in attributes]
@@ -218,6 +220,37 @@ def test_chart_shows_the_curve_under_the_pointer_and_hides_curves(html, tmp_path
     assert re.fullmatch(READOUT, title)
     hidden = re.search(r'<button[^>]*aria-pressed="false"[^>]*>([\d.]+)</button>', shown)[1]
     assert not title.startswith(f"H = {hidden},")
+
+
+TRACE = """
+<script>
+addEventListener("load", () => {
+  const popover = document.getElementById("origin"), seen = [];
+  const [first, second] = document.querySelectorAll("#answer table data");
+  const press = (key) => document.activeElement.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+  const look = () => seen.push(popover.matches(":popover-open") ? popover.textContent : "closed");
+  first.click();
+  look();
+  popover.hidePopover();
+  press("ArrowRight");
+  look();
+  press(" ");
+  look();
+  const places = [first, second].map((number) => `value ${number.value}${number.title.split("; ").join("")}`);
+  const wanted = [places[0], "closed", places[1]];
+  document.title = `${seen.every((text, i) => text === wanted[i])} ${[first, second].map((number) => number.tabIndex)}`;
+});
+</script>
+"""
+
+
+@pytest.mark.skipif(BROWSER is None, reason="no Chromium is installed")
+def test_numbers_show_their_origin_by_click_and_keyboard(html, tmp_path):
+    """The tab key reaches one number of a table."""
+    (tmp_path / "page.html").write_text(html.replace("</body>", f"{TRACE}</body>"), encoding="utf-8")
+    shown = opened(tmp_path / "page.html", "--virtual-time-budget=3000")
+    assert re.search("<title>(.*?)</title>", shown)[1] == "true -1,0"
+    assert not re.search("<a [^>]*>[^<]*<data[^>]* role=", shown), "no control in a link"
 
 
 @pytest.mark.skipif(BROWSER is None, reason="no Chromium is installed")

@@ -44,6 +44,7 @@ def page_of(project, discs, figures, *, combinations, fraction_min, **run):
         "alternative": yaml.safe_load((folder / "figures.yaml").read_text("utf-8")),
         "calculator": calculator(folder),
         "chart": chart(folder, discs, combinations, contents["conventions"], fraction_min),
+        "origin": Markup((folder / "origin.js").read_text("utf-8")),
         "sketch": Markup((folder / "sketch.svg").read_text("utf-8")),
         "rules": embedded_png((project / "docs/rules.png").read_bytes()),
     }

@@ -20,8 +20,8 @@ from viscorough_study.run.tables import split_table, write_table
 
 @pytest.fixture
 def results(tmp_path):
-    """Make a folder with everything that `make paper` and `make large` make."""
-    for name in [*publish.PUBLISHED["paper"], *publish.PUBLISHED["large"], *publish.KEPT["paper"]]:
+    """Make a folder with everything that `make law` and `make large` make."""
+    for name in [*publish.PUBLISHED["law"], *publish.PUBLISHED["large"], *publish.KEPT["law"]]:
         (tmp_path / "results" / name).parent.mkdir(parents=True, exist_ok=True)
         if name.endswith(".png"):
             Image.new("RGB", (3, 2)).save(tmp_path / "results" / name)
@@ -33,7 +33,7 @@ def results(tmp_path):
                 columns=columns,
                 title=name,
             )
-    os.utime(tmp_path / "results/tables/rule_costs.csv", (86400 * 365.25 * 30,) * 2)
+    os.utime(tmp_path / "results/tables/law.csv", (86400 * 365.25 * 30,) * 2)
     return tmp_path / "results"
 
 
@@ -42,16 +42,16 @@ def test_only_complete_runs_are_published(results, tmp_path):
     for folder in ("docs", "resources/published", "src/viscorough/law/data"):
         (tmp_path / folder).mkdir(parents=True)
     with pytest.raises(click.ClickException, match="make speed"):
-        publish.copy_results(results, tmp_path, ["paper", "speed"], "abc")
+        publish.copy_results(results, tmp_path, ["law", "speed"], "abc")
     assert not list((tmp_path / "docs").iterdir())
-    publish.copy_results(results, tmp_path, ["paper"], "abc")
+    publish.copy_results(results, tmp_path, ["law"], "abc")
     publish.copy_results(results, tmp_path, ["large"], "def")
     records = json.loads((tmp_path / "docs/results/published.json").read_text())
-    names = {name.split("/")[-1] for name in publish.PUBLISHED["paper"] + publish.PUBLISHED["large"]}
+    names = {name.split("/")[-1] for name in publish.PUBLISHED["law"] + publish.PUBLISHED["large"]}
     assert {path.name for path in (tmp_path / "docs/results").iterdir()} - {"published.json"} == set(records) == names
-    assert records["rule_costs.csv"]["date"] == "2000-01-01"
+    assert records["law.csv"]["date"] == "2000-01-01"
     assert (records["large.csv"]["command"], records["large.csv"]["commit"]) == ("make large", "def")
-    for name, target in publish.KEPT["paper"].items():
+    for name, target in publish.KEPT["law"].items():
         assert (tmp_path / target).read_text() == split_table(results / name)[1]
 
 

@@ -19,11 +19,11 @@ from viscorough.surfaces.indenter import Indenter
 from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough.viscous.integration.events import newtonian_events
 from viscorough.viscous.kinetics import kinetics
-from viscorough_study.robustness.stress_solutions import GRID_ONLY
 
 _LARGEST = 32  # largest number of elements across
 # Share of the height differences below which the rounding of the heights dominates depths.
 _HEIGHT_ROUNDING = 1e-13
+GRID_ONLY = SolverOptions(dense_contacts=0, dense_interactions=0)
 # Solver options to draw from: the dense solver up to different sizes, and the grid from the first level on.
 _OPTIONS = (DEFAULT, SolverOptions(dense_contacts=30, dense_interactions=300), SolverOptions(dense_interactions=0))
 

@@ -11,7 +11,7 @@ import changed
     ("name", "some"),
     [
         ("tests/docs/test_pages.py", "tests/docs/test_pages.py"),
-        ("src/viscorough/io/text.py", "tests/viscorough/io/test_text.py"),
+        ("src/viscorough/io/histories.py", "tests/viscorough/io/test_histories.py"),
         # All tests of its folder.
         ("src/viscorough/contact/state.py", "tests/viscorough/contact/test_prescribed_depth.py"),
         ("benchmarks/slurm.py", "tests/benchmarks/test_slurm.py"),

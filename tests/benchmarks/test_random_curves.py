@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from random_curves import (
+    GRID_ONLY,
     RandomCurve,
     curve_failure,
     levels_failure,
@@ -19,7 +20,6 @@ from viscorough.contact.loading_path import indent
 from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.state import DenseContact
 from viscorough.surfaces.self_affine import self_affine_disc
-from viscorough_study.robustness.stress_solutions import GRID_ONLY
 from viscorough_study.run.seeds import random_indenter_key, realization_seed
 
 

@@ -28,7 +28,7 @@ FILES = {
     "kind: ": ("medium.yaml", read_medium),
 }
 # Blocks that other tests read: directives of the website, the citation, scripts in examples/, and settings (below).
-ELSEWHERE = {"bibtex", "{toctree}", "{include}", "{literalinclude}", "{eval-rst}", "yaml"}
+ELSEWHERE = {"bibtex", "{toctree}", "{include}", "{literalinclude}", "{csv-table}", "{eval-rst}", "yaml"}
 # Blocks that are parts of a workflow, or need a package that is not installed here.
 ALONE = ("rule tabulate_departures:", "use rule plot_surfaces as", "module viscorough:", "import numpy as np, tifffile")
 

@@ -252,7 +252,7 @@ CALLS = {
 OPTIONAL = {
     *("progress", "options", "precision", "padding", "length_unit", "corners", "amplitudes", "rms_over", "dtype"),
     *("detrend", "fill", "flip", "kind", "scheme", "medium", "method", "load", "estimate_grid_error"),
-    *("column_positions", "row_positions"),
+    *("column_positions", "row_positions", "from_file"),
 }
 # Public names without numbers among their arguments, and functions of files (test_heights.py covers their numbers).
 WITHOUT_NUMBERS = {"AccuracyWarning", "ConvergenceError", "reference", "read_medium"}

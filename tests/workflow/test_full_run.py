@@ -41,8 +41,7 @@ def test_published_tables_have_the_columns_of_the_code(finished_once):
     }
     assert len(published) > 5
     for name, path in published.items():
-        made = finished_once / f"results/tables/{name}.csv"
-        assert set(pd.read_csv(path)) == set(read_table(made)), name
+        assert set(pd.read_csv(path)) == set(read_table(finished_once / f"results/tables/{name}.csv")), name
 
 
 def test_files_follow_the_cf_conventions(finished_once):

@@ -51,9 +51,6 @@ _APPROACH_MIN_RATIO = 1.02
 _OVERSHOOT = 0.02
 # A few elements more may touch at once without a warning, for example the eight equal elements of a symmetric body.
 _FEW_AT_ONCE = 8
-# Elements touch almost at once if the depth changes relatively by less than this number, or by less than this share of
-# the tolerance. The force of contacts at closer depths need not increase, because it is less accurate.
-_AT_ONCE, _SHARE_OF_TOLERANCE = 2e-3, 0.15
 # Near `until_fraction`, an interval of depth is divided at most so close to its ends, as a share of the interval.
 _END_DIVISION = 0.2, 0.8
 # The depth of complete contact is not computed for curves that end at or below this contact fraction.
@@ -488,10 +485,11 @@ class _LoadingPath:
     def _is_beyond_the_end(self, contact: ContactState, ratio: float) -> bool:
         """Return True if a contact has so many elements in contact that the curve must end before it.
 
+        Levels that are closer than the step control allows are not accurate enough to have increasing stiffness.
+
         ratio : depth of the contact divided by the current depth
         """
-        closest = max(_AT_ONCE, _SHARE_OF_TOLERANCE * (self._control.min_ratio - 1))
-        return contact.count > self._until_count + self._allowed_overshoot and ratio > 1 + closest
+        return contact.count > self._until_count + self._allowed_overshoot and ratio > self._control.min_ratio
 
     def _depth_of_end(self, contact: ContactState) -> float:
         """Return a depth at which the curve may end, between the current contact and a contact beyond the end."""

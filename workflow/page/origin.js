@@ -5,7 +5,7 @@
 (function () {
   const popover = document.getElementById("origin");
   if (!("popover" in popover)) return; // an old browser; the tooltips remain
-  const numbers = [...document.querySelectorAll("data[title]")].filter((number) => !number.closest("a"));
+  const numbers = [...document.querySelectorAll("data[title]")].filter((number) => !number.closest("a, summary"));
   const groupOf = (number) => number.closest("table, p, dl") || document.body;
   const groups = new Map(); // {group: its numbers}
   let shown = null; // the number whose origin is shown
@@ -21,7 +21,6 @@
 
   /** Show where a number comes from, below it, or above it at the end of the window. */
   function show(number) {
-    if (popover.matches(":popover-open")) popover.hidePopover();
     const parts = number.title.split("; ").map((text) => {
       const line = document.createElement("p");
       line.textContent = text;
@@ -40,10 +39,11 @@
   }
 
   /** Give the focus to a number, which then is the one of its group that the tab key reaches. */
-  function focus(number) {
+  function focus(number, options) {
+    if (popover.matches(":popover-open")) popover.hidePopover();
     for (const other of groups.get(groupOf(number))) other.tabIndex = -1;
     number.tabIndex = 0;
-    number.focus();
+    number.focus(options);
   }
 
   popover.addEventListener("toggle", (event) => {
@@ -56,7 +56,7 @@
   document.addEventListener("click", (event) => {
     const number = event.target.closest("data[role=button]");
     if (!number) return;
-    focus(number);
+    focus(number, { preventScroll: true });
     show(number);
   });
   document.addEventListener("keydown", (event) => {
@@ -64,6 +64,7 @@
     if (!number) return;
     if (event.key === "Enter" || event.key === " ") {
       event.preventDefault();
+      focus(number);
       show(number);
     }
     const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];

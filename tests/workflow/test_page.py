@@ -55,7 +55,7 @@ def test_code_on_the_page_runs(html, tmp_path, monkeypatch):
     """The blocks are Python or command lines, on the heights that they name."""
     monkeypatch.chdir(tmp_path)
     np.save("heights.npy", self_affine_disc(0.7, 33, rms=1e-7, diameter=33e-6, seed=1).heights)
-    blocks = [unescape(text) for text in re.findall(r"<pre><code>(.*?)</code></pre>", html, re.DOTALL)]
+    blocks = [unescape(text) for text in re.findall(r"<pre[^>]*><code>(.*?)</code></pre>", html, re.DOTALL)]
     assert len(blocks) == html.count("<pre") == 2
     for text in blocks:
         if text.startswith("import "):

@@ -104,7 +104,10 @@
       const rank = above ? upper - place : place - upper + 1; // 1 for the labels next to the curves
       const [, edge] = at(data.x[widest], data.curves[drawn[above ? 0 : drawn.length - 1]].velocity[widest]);
       const height = edge + (above ? -1 : 1) * (30 * ratio + (rank - 1) * step);
-      const end = x + (above ? -34 : 34) * ratio;
+      const kind = narrow() ? "" : place === 0 ? ", rugged" : place === drawn.length - 1 ? ", smooth" : "";
+      const text = `H = ${curve.hurst}${kind}`;
+      const room = left + ctx.measureText(text).width + 8 * ratio; // a label does not leave the chart
+      const end = above ? Math.max(room, x - 34 * ratio) : x + 34 * ratio;
       ctx.beginPath();
       ctx.moveTo(x, y);
       ctx.lineTo(end, height);
@@ -112,8 +115,7 @@
       ctx.strokeStyle = curve.color;
       ctx.stroke();
       ctx.textAlign = above ? "right" : "left";
-      const kind = narrow() ? "" : place === 0 ? ", rugged" : place === drawn.length - 1 ? ", smooth" : "";
-      write(`H = ${curve.hurst}${kind}`, end + (above ? -4 : 4) * ratio, height, "#1c2430");
+      write(text, end + (above ? -4 : 4) * ratio, height, "#1c2430");
     });
     ctx.restore();
   }

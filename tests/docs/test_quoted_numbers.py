@@ -7,8 +7,6 @@ import pandas as pd
 
 from support.documentation import ROOT, read
 from viscorough_study.fits.fine_sentence import fine_grids_sentence, judged_rows
-from viscorough_study.verdicts.claims import counted_verdicts, verdicts_of
-from viscorough_study.verdicts.document import counts_text
 
 CLAIMS = pd.read_csv(ROOT / "docs/claims.csv")
 VALUE = CLAIMS.assign(reading=CLAIMS["reading"].fillna("")).set_index(["claim", "reading", "case"])
@@ -35,10 +33,8 @@ def quoted():
     yield "README.md", f"less Eq. 12 is at most {np.ceil(100 * eq_12) / 100:.2f}"
     constant = VALUE.loc[("one_constant", "A", "constant on vt/h"), "note"].split()[1]
     yield "README.md", f"Eq. 12 must be multiplied by {constant}"
-    yield "README.md", f"The paper's own claims: {counts_text(counted_verdicts(CLAIMS, 'own'))}."
-    minutes = pd.read_csv(ROOT / "resources/published/first_minutes.csv")
-    minutes = minutes[minutes["commit"] == minutes["commit"].iloc[-1]].groupby("repeat")["wall_s"].sum() / 60
-    yield "README.md", f"several weeks in the paper, {np.ceil(minutes.max()):.0f} minutes here"
+    minutes = pd.read_csv(ROOT / "docs/results/rule_costs.csv")["share_s"].sum() / 60
+    yield "README.md", f"several weeks in the paper, {minutes:.0f} minutes here"
     law = pd.read_csv(ROOT / "docs/results/law_errors.csv").query("across == 257 and x > 0.003")
     errors = (100 * law[f"{name}_error"].abs().max() for name in ("velocity", "interface", "depth"))
     yield "docs/verification.md", "{:.0f} % in *vt*/*h*, {:.0f} % in *g* and {:.0f} % in *u*/*h*".format(*errors)
@@ -53,10 +49,3 @@ def test_sentence_on_fine_grids_is_the_same_everywhere():
 def test_quoted_numbers_are_those_of_the_published_tables():
     for page, text in quoted():
         assert text in words(page)
-
-
-def test_verdicts_of_the_readme_are_the_published_ones():
-    rows = re.findall(r"\[([\w ]+)\]\(docs/verdicts\.md#(\w+)\)", read(ROOT / "README.md"))
-    assert len(rows) > 5
-    verdicts = verdicts_of(CLAIMS)
-    assert [(word, name) for word, name in rows if verdicts[name].word != word] == []

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from viscorough.basics.types import FilePath
+from viscorough.basics.types import Array, FilePath
 from viscorough.io.atomic import atomic_write
 from viscorough.io.netcdf import Content, Variable
 from viscorough.io.saving import Result, to_content
@@ -23,6 +23,8 @@ _AXES |= {"force": "force F/G", "normal_force": "force F"}
 _MAPS = ("normal_pressure", "pressure", "heights")
 _CURVES = [("time", "depth", "linear"), ("depth", "normal_force", "log"), ("depth", "force", "log")]
 _CURVES += [("x", "heights", "linear")]
+# Units in which lengths in metres are drawn: the first one that is not larger than the largest length.
+_LENGTHS = [("m", 1.0), ("mm", 1e-3), ("µm", 1e-6), ("nm", 1e-9)]
 
 
 def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
@@ -38,8 +40,8 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
     Returns
     -------
     Figure
-        Figure of matplotlib, in the units of the file. Maps have the first row at the top. Of several contacts, the
-        last is drawn. Loading curves have logarithmic axes.
+        Figure of matplotlib, in the units of the file; metres become mm, µm or nm. Maps have the first row at the top.
+        Of several contacts, the last is drawn. Loading curves have logarithmic axes.
 
     Raises
     ------
@@ -52,7 +54,7 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
     >>> disc = viscorough.self_affine_disc(0.8, 17, rms=1e-6, diameter=1e-4, length_unit="m", seed=1)
     >>> (axes,) = viscorough.plot(viscorough.indent(disc)).axes
     >>> axes.get_xlabel(), axes.get_ylabel()
-    ('depth (m)', 'force F/G (m2)')
+    ('depth (µm)', 'force F/G (m2)')
     """
     suffix = "" if path is None else check_suffix(path, FIGURES)
     variables = (result if isinstance(result, Content) else to_content(result)).variables
@@ -75,26 +77,35 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
 
 def _draw_map(figure: Figure, axes: Axes, variables: dict[str, Variable], name: str) -> None:
     """Draw a map, grey outside the indenter; of several maps, the last."""
-    values = variables[name].values.reshape(-1, *variables[name].values.shape[-2:])[-1]
+    values, label = _drawn(variables, name)
+    values = values.reshape(-1, *values.shape[-2:])[-1]
+    size = max(np.abs(variables[axis].values).max() for axis in ("x", "y"))  # both axes have one unit
+    (x, x_label), (y, y_label) = (_drawn(variables, axis, size) for axis in ("x", "y"))
     ends: list[float] = []
-    for position in (variables["x"].values, variables["y"].values):
+    for position in (x, y):
         half = (position[-1] - position[0]) / max(len(position) - 1, 1) / 2 or 0.5
         ends += [position[0] - half, position[-1] + half]
     left, right, top, bottom = ends  # the first row is at the top
     image = axes.imshow(values, origin="upper", extent=(left, right, bottom, top))
     axes.set_facecolor("0.85")
-    axes.set(xlabel=_label(variables, "x"), ylabel=_label(variables, "y"))
-    figure.colorbar(image, ax=axes, label=_label(variables, name))
+    axes.set(xlabel=x_label, ylabel=y_label)
+    figure.colorbar(image, ax=axes, label=label)
 
 
 def _draw_curve(axes: Axes, variables: dict[str, Variable], x: str, y: str, scale: Any) -> None:
     """Draw a curve, or all curves of a stack; logarithmic axes show positive values only."""
-    for along, over in zip(*(np.atleast_2d(variables[name].values) for name in (x, y)), strict=True):
+    (xs, x_label), (ys, y_label) = _drawn(variables, x), _drawn(variables, y)
+    for along, over in zip(np.atleast_2d(xs), np.atleast_2d(ys), strict=True):
         shown = (along > 0) & (over > 0) if scale == "log" else np.isfinite(along + over)
         axes.plot(along[shown], over[shown], marker="." if shown.sum() < 40 else "")
-    axes.set(xscale=scale, yscale=scale, xlabel=_label(variables, x), ylabel=_label(variables, y))
+    axes.set(xscale=scale, yscale=scale, xlabel=x_label, ylabel=y_label)
 
 
-def _label(variables: dict[str, Variable], name: str) -> str:
-    unit = str(variables[name].attributes.get("units", "1"))
-    return _AXES.get(name, name) + ("" if unit == "1" else f" ({unit})")
+def _drawn(variables: dict[str, Variable], name: str, largest: float | None = None) -> tuple[Array, str]:
+    """Return the values of a variable and the label of their axis; `largest` decides the unit of lengths in metres."""
+    values, unit = variables[name].values, str(variables[name].attributes.get("units", "1"))
+    if unit == "m":
+        largest = np.nanmax(np.abs(values), initial=0.0) if largest is None else largest
+        unit, length = next((each for each in _LENGTHS if largest >= each[1]), _LENGTHS[-1])
+        values = values / length
+    return values, _AXES.get(name, name) + ("" if unit == "1" else f" ({unit})")

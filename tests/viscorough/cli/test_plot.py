@@ -116,8 +116,8 @@ def test_missing_matplotlib_is_one_line_that_names_the_extra(monkeypatch, compla
 def test_maps_have_the_first_row_at_the_top():
     surface = viscorough.Indenter(5e-9 * np.eye(5), 5e-5, 1e-5, length_unit="m")
     axes, colours = viscorough.plot(surface).axes
-    assert (axes.get_xlabel(), axes.get_ylabel(), colours.get_ylabel()) == ("x (m)", "y (m)", "height (m)")
-    np.testing.assert_allclose(axes.images[0].get_extent(), [-125e-6, 125e-6, 25e-6, -25e-6])
+    assert (axes.get_xlabel(), axes.get_ylabel(), colours.get_ylabel()) == ("x (µm)", "y (µm)", "height (nm)")
+    np.testing.assert_allclose(axes.images[0].get_extent(), [-125, 125, 25, -25])
     assert axes.images[0].origin == "upper"
 
 

@@ -42,6 +42,7 @@ NEARLY_LINEAR = 0.05
     assumption=True,
     reason="Fig. 2 shows one curve for each H if its combinations lie closer together than a quarter of the distance "
     "to the next H",
+    remark="The collapse also follows from the equations, so that this tests the computation rather than the physics.",
     figure="fig2_kinetics",
 )
 def collapse(evidence, tolerance):
@@ -274,7 +275,7 @@ def last_region(evidence, tolerance):
 
 
 @claim(
-    title="this final line begins when nearly the whole surface touches",
+    title="on this final line, region (c), contact is almost complete",
     sentence="region (c), where all curves have the slope 1, corresponds to an “almost complete” contact",
     where="Sec. III, region (c)",
     kind="own",

@@ -60,7 +60,7 @@ def coincide(evidence, tolerance):
 
 
 @claim(
-    title="lines of independent springs (MDR) follow the master curve, Eq. 12",
+    title="lines of independent springs (MDR) with λ = π follow the master curve, Eq. 12",
     sentence="in region (b) the results of the reduction of dimensionality lie on the “master curve” of Eq. 12, too",
     where="Eq. 12, Fig. 3",
     kind="own",
@@ -70,6 +70,8 @@ def coincide(evidence, tolerance):
     tolerance=0.15,
     assumption=True,
     reason="as for discs",
+    remark="The lines have the factor λ = π of Eq. 13. The paper later replaces π by λ(H), and does not say which lines "
+    "Fig. 3 shows; another λ moves the lines along X.",
     figure="fig3_master_curve",
 )
 def line_master_curve(evidence, tolerance):
@@ -79,7 +81,7 @@ def line_master_curve(evidence, tolerance):
 
 
 @claim(
-    title="the exponent is exact as H tends to 1",
+    title="the exponent of lines is exact as H tends to 1",
     sentence="for H → 1 the exponent α = 1/(1 + H) is an “exact relation following from rigorous scaling "
     "considerations”",
     where="Sec. IV, Eq. 5",
@@ -185,7 +187,7 @@ OUR_CHOICE = "our choice; the paper does not treat this quantity"
     title="a line gives the contact area of its surface",
     sentence="lines of the reduction of dimensionality also give the contact area, a quantity that the paper does not "
     "treat",
-    where="Secs. V and VI",
+    where="not in the paper",
     kind="beyond",
     quantity="contact fraction of lines over that of discs at the centre of region (b); published results of `make "
     "paper`",
@@ -204,7 +206,7 @@ def line_area(evidence, tolerance):
     title="a line gives the mean gap of its surface",
     sentence="lines of the reduction of dimensionality also give the mean gap, a quantity that the paper does not "
     "treat",
-    where="Secs. V and VI",
+    where="not in the paper",
     kind="beyond",
     quantity="mean gap of lines over that of discs at the centre of region (b); published results of make paper",
     criterion="the mean gap of lines over that of the discs with the same spectrum (Eq. 13) is 1 up to a factor of 1 "

@@ -70,8 +70,8 @@ def coincide(evidence, tolerance):
     tolerance=0.15,
     assumption=True,
     reason="as for discs",
-    remark="The lines have the factor λ = π of Eq. 13. The paper later replaces π by λ(H), and does not say which lines "
-    "Fig. 3 shows; another λ moves the lines along X.",
+    remark="The lines have the factor λ = π of Eq. 13. The paper later replaces π by λ(H), and does not say which "
+    "lines Fig. 3 shows; another λ moves the lines along X.",
     figure="fig3_master_curve",
 )
 def line_master_curve(evidence, tolerance):

@@ -140,8 +140,8 @@ def test_page_compares_the_time_of_the_jobs_with_the_papers(finished_once, page)
     costs = read_table(finished_once / "results/tables/rule_costs.csv")
     assert costs["longest_s"].max() < costs["share_s"].sum() < costs["seconds"].sum()
     assert (
-        f"Boundary elements: several weeks in the paper, {duration_text(costs['share_s'].sum())} here with another algorithm, on this machine"
-        in page.text
+        f"Boundary elements: several weeks in the paper, {duration_text(costs['share_s'].sum())} here "
+        "with another algorithm, on this machine" in page.text
     )
 
 

@@ -9,6 +9,7 @@ BROKEN = {
     "not closed text": (b"seed: 'one\n", "line 2, column 1"),
     "key twice": (b"discs: {batch: 2}\nseed: 1\ndiscs: {elements: 9}\n", "key discs for the second time"),
     "UTF-16": ("seed: 1\n".encode("utf-16"), "'utf-8' codec can't decode byte 0xff in position 0"),
+    "octal": (b"seed: 0123\n", "0123 begins with a zero, which makes it octal; write it without the zero"),
     "empty": (b"", "it holds no settings"),
     "tag": (b"seed: !!python/object:os.system 1\n", "could not determine a constructor"),
     "unhashable key": (b"? [discs]\n: 1\n", "found unhashable key"),

@@ -40,7 +40,7 @@ def test_another_workflow_makes_a_figure_with_its_settings(finished_once, tmp_pa
     copy_kernels(finished_once, tmp_path)
     (tmp_path / "Snakefile").write_text(OTHER.format(snakefile=ROOT / "Snakefile"))
     planned = jobs(snakemake(tmp_path, "--dry-run", "--", "rough_figure_4"))
-    assert planned["rough_indent_surfaces"] == 2 * 2 + 2
+    assert planned["rough_indent_surfaces"] == 2 * (2 + 1 + 1)  # readings A and B, and the control
     snakemake(tmp_path, "--", "rough_figure_1")
     assert (tmp_path / "results/figures/fig1_surfaces.png").stat().st_size > 5000
 

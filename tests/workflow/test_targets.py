@@ -2,7 +2,7 @@
 
 import pytest
 
-from support.workflow import TEST, jobs, plan, snakemake
+from support.workflow import TEST, copy_kernels, copy_project, jobs, plan, snakemake
 from viscorough_study.run.tables import read_table
 
 
@@ -30,7 +30,8 @@ def test_figure_plans_only_the_jobs_it_needs(unmade):
 
 
 @pytest.mark.long
-def test_fine_grids_are_a_target_of_their_own(tmp_path):
+def test_fine_grids_are_a_target_of_their_own(finished_once, tmp_path):
+    copy_kernels(finished_once, copy_project(tmp_path))
     finished = snakemake(tmp_path, *TEST, "--", "fine_grids")
     assert jobs(finished) == {"indent_nested": 4, "fit_fine_grids": 1, "plot_local_exponent": 1}
 

@@ -33,6 +33,8 @@ def quoted():
     yield "README.md", f"less Eq. 12 is at most {np.ceil(100 * eq_12) / 100:.2f}"
     constant = VALUE.loc[("one_constant", "A", "constant on vt/h"), "note"].split()[1]
     yield "README.md", f"Eq. 12 must be multiplied by {constant}"
+    verdict = VALUE.loc[("beta", "B", "H = 0.6"), "verdict"]
+    yield "README.md", f"larger square leave the exponent at H = 0.6 {verdict}"
     minutes = pd.read_csv(ROOT / "docs/results/rule_costs.csv")["share_s"].sum() / 60
     yield "README.md", f"several weeks in the paper, {minutes:.0f} minutes here"
     law = pd.read_csv(ROOT / "docs/results/law_errors.csv").query("across == 257 and x > 0.003")

@@ -135,7 +135,9 @@ def mdr_tables(drift=1.0, ratio=1.0):
     x = np.geomspace(1e-4, 1, 9)
     gap = interval("gap_ratio", np.where(np.arange(9) % 2, np.nan, ratio), 0.01)
     every = pd.DataFrame({"hurst": HURST})
+    exponents = every.assign(window="own region", realizations=1000, **interval("difference", 0.0, 0.005))
     return {
+        "mdr_exponents": exponents,
         "mdr_summary": every.assign(**summary, realizations=1000),
         "reduction": every.merge(pd.DataFrame({"x": x} | compared | gap), how="cross"),
     }

@@ -8,6 +8,7 @@ rule judge_claims:
             "results/tables/scaling.csv",
             "results/tables/direct.csv",
             "results/tables/mdr_summary.csv",
+            "results/tables/mdr_exponents.csv",
             "results/tables/local_slope.csv",
             "results/tables/zeta_laws.csv",
         ],

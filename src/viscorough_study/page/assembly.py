@@ -82,6 +82,7 @@ def contents_of(project, discs, lines, *, tables, numbers, made_by, changed, fil
         "kinds": KINDS,
         "models": results.records("sufficient_models"),
         "full_map": results.number("one_surface", results.tables["one_surface"]["across"].idxmax(), "across"),
+        "mdr_time": content.mdr_time(results),
         "failures": content.failures(results),
         "outcomes": OUTCOMES,
         "other": content.other_solvers(project / "resources/published/other_solvers.csv"),

@@ -104,6 +104,20 @@ def failures(results):
     }
 
 
+def mdr_time(results):
+    """Return the processor times of one disc and of one line (MDR), which the paper compares as weeks and minutes.
+
+    disc, across : time of a loading curve on the finest grid at a tolerance of 1e-3, and its elements across
+    line, points : time of the line with the most points, and its number of points
+    """
+    table = results.tables["methods"]
+    discs = table[(table["method"] == "path, automatic levels") & (table["value"] == 1e-3)]
+    disc, line = discs["elements"].idxmax(), table.loc[table["method"] == "MDR", "value"].idxmax()
+    named = {"disc": (disc, "processor_s"), "across": (disc, "elements")}
+    named |= {"line": (line, "processor_s"), "points": (line, "value")}
+    return {name: results.number("methods", *place) for name, place in named.items()}
+
+
 def other_solvers(path):
     """Return published computing times of other solvers, divided by the time of viscorough.indent for the same levels.
 

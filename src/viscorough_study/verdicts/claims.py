@@ -120,13 +120,15 @@ def verdict_on(rows):
 
 
 def _column(rows):
-    """Return the verdict of the cases in one reading, and words on where the claim holds if it holds in part."""
-    verdicts, held = set(rows["verdict"]), rows.loc[rows["verdict"] == "holds", "case"]
-    if not {"holds", "not"} <= verdicts:
-        return max(verdicts, key=WORDS.index), ""
-    if held.str.fullmatch(r"H = [\d.]+").all():
-        return "in part", f" at H = {', '.join(held.str.removeprefix('H = '))}"
-    return "in part", f", {len(held)} of {len(rows)} cases"
+    """Return the verdict of the cases in one reading, and words on which cases decide it if the cases differ."""
+    verdicts = set(rows["verdict"])
+    word = "in part" if {"holds", "not"} <= verdicts else max(verdicts, key=WORDS.index)
+    if len(verdicts) == 1:
+        return word, ""
+    deciding = rows.loc[rows["verdict"] == ("holds" if word == "in part" else word), "case"]
+    if deciding.str.fullmatch(r"H = [\d.]+").all():
+        return word, f" at H = {', '.join(deciding.str.removeprefix('H = '))}"
+    return word, f", {len(deciding)} of {len(rows)} cases"
 
 
 def verdicts_of(table):

@@ -35,7 +35,8 @@ CONSTANTS = {
     figure="fig3_master_curve",
     readings=True,
     remark="The paper does not say how its discs were made. Reading B is a sufficient cause of Eq. 12, not a proven "
-    "one: nothing printed contradicts it, and nothing says it.",
+    "one: nothing printed contradicts it, and nothing says it. No one reading meets this claim and the claim on β at "
+    "every H.",
 )
 def master_curve(evidence, tolerance):
     """Test whether vt/h of discs follows Eq. 12 as printed, in region (b), for each Hurst exponent."""

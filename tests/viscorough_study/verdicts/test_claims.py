@@ -158,7 +158,7 @@ IN_PART = "in part at H = 0.6, 0.9"
         (["not", "holds", "holds"], ["not", "not", "holds"], "in part", "in part"),
         (["not"] * 3, ["not", "holds", "holds"], "in part", f"in part in B at H = 0.6, 0.9; {AFTER_THE_FACT}"),
         (["not", "holds", "holds"], ["undecided"] * 3, "in part", "in part in A at H = 0.6, 0.9"),
-        (["undecided", "holds", "holds"], ["not", "undecided", "undecided"], "undecided", "undecided in A"),
+        (["undecided", "holds", "holds"], ["not", "undecided", "undecided"], "undecided", "undecided in A at H = 0.4"),
         (["not", "undecided", "undecided"], ["not"] * 3, "not", "not"),
         (["not", "holds", "holds"], None, "in part", IN_PART),
     ],

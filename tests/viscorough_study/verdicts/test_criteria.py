@@ -110,15 +110,22 @@ def test_spread_of_slopes_decides_for_discs_and_for_the_control(sample):
         assert [case["verdict"] for case in cases] == [told] * len(HURST)
 
 
-def test_deviation_from_equation_12_has_two_parts(sample):
-    """Halving ζ adds ln 2; a fit with the prefactor of Eq. 12 and a residual of 0.2 deviates by 0.2."""
+def test_lambda_moves_the_prefactor_of_lines(sample):
+    """With λ = π 2^(2/α) the heights of a line are 2^(1/α) times as large, and ζ is half as large."""
     scaling = sample.tables["scaling"]
     before = judge(lines.line_master_curve, sample)
-    rows = scaling["source"] == "lines"
+    discs = scaling["source"] == "discs"
+    scaling.loc[discs, "lambda"] = np.pi * 2 ** (2 / exponent_alpha(scaling.loc[discs, "hurst"]))
+    after = judge(lines.line_master_curve, sample)
+    assert [case["case"] for case in after] == [f"H = {hurst}, {name}" for name in ("λ = π", "λ(H)") for hurst in HURST]
+    moved = [case["value"] - old["value"] for case, old in zip(after, before, strict=True)]
+    assert moved == pytest.approx([0] * len(HURST) + [np.log(2)] * len(HURST), abs=0.01)
+
+
+def test_deviation_from_equation_12_has_two_parts(sample):
+    """A fit with the prefactor of Eq. 12 and a residual of 0.2 deviates by 0.2."""
+    scaling = sample.tables["scaling"]
     names = ["zeta_fixed", "zeta_fixed_low", "zeta_fixed_high"]
-    scaling.loc[rows, names] /= 2
-    halved = zip(judge(lines.line_master_curve, sample), before, strict=True)
-    assert [after["value"] - case["value"] for after, case in halved] == pytest.approx([np.log(2)] * 3, abs=0.01)
     law = (2 - scaling["hurst"]) * gamma_function(1 + exponent_beta(scaling["hurst"]))
     for name, factor in zip(names, (1.0, 0.99, 1.01), strict=True):
         scaling[name] = factor * law
@@ -152,29 +159,27 @@ def test_limit_of_fine_grids_is_judged_from_the_paper_s_range_on(sample):
     assert [case["verdict"] for case in judge(exponents.exponent_limit, sample)] == ["not"]
 
 
-def test_exact_exponent_needs_lines_with_it(sample):
+def test_exact_exponent_is_judged_on_lines_and_on_fine_discs(sample):
     assert [case["verdict"] for case in judge(lines.alpha_limit, sample)] == ["undecided"]
-    known = sample.tables["scaling"]
+    known, fine = sample.tables["scaling"], sample.tables["fine_exponents"]
     rows = known[(known["source"] == "lines") & (known["hurst"] == 0.9)].assign(hurst=1.0, beta=0.5)
+    discs = fine[fine["hurst"] == 0.4].assign(hurst=1.0, limit=0.5)
     for half_width, verdict in ((0.01, "holds"), (0.02, "undecided")):
-        more = rows.assign(beta_low=0.5 - half_width, beta_high=0.5 + half_width)
-        sample.tables["scaling"] = pd.concat([known, more], ignore_index=True)
-        assert [case["verdict"] for case in judge(lines.alpha_limit, sample)] == [verdict]
+        low, high = 0.5 - half_width, 0.5 + half_width
+        lines_added = rows.assign(beta_low=low, beta_high=high)
+        sample.tables["scaling"] = pd.concat([known, lines_added], ignore_index=True)
+        sample.tables["fine_exponents"] = pd.concat([fine, discs.assign(limit_low=low, limit_high=high)])
+        cases = [(case["case"], case["verdict"]) for case in judge(lines.alpha_limit, sample)]
+        assert cases == [("lines", verdict), ("discs", verdict)]
 
 
-def test_exponents_of_both_methods_are_compared_at_equal_hurst_exponents(sample):
-    """β of a line at one H is moved; the intervals of line and disc add in quadrature."""
-    scaling = sample.tables["scaling"]
-    rows = scaling["source"] == "lines"
-    for name, shift in (("beta", 0.1), ("beta_low", 0.096), ("beta_high", 0.104)):
-        scaling.loc[rows & (scaling["hurst"] == 0.6), name] = 0.375 + shift
-    cases = {case["case"]: case for case in judge(lines.coincide, sample)}
-    assert {name: case["verdict"] for name, case in cases.items()} == {
-        "H = 0.4": "holds",
-        "H = 0.6": "not",
-        "H = 0.9": "holds",
-    }
-    assert cases["H = 0.6"]["high"] - cases["H = 0.6"]["low"] > 0.008
+def test_exponents_of_both_methods_are_compared_in_their_own_regions(sample):
+    table = sample.tables["mdr_exponents"]
+    moved = table["hurst"] == 0.6
+    table.loc[moved, ["difference", "difference_low", "difference_high"]] += 0.1
+    sample.tables["mdr_exponents"] = pd.concat([table, table.assign(window="same X", difference=1.0)])
+    cases = [(case["case"], case["verdict"]) for case in judge(lines.coincide, sample)]
+    assert cases == [("H = 0.4", "holds"), ("H = 0.6", "not"), ("H = 0.9", "holds")]
 
 
 def test_curves_that_leave_the_first_region_sooner_separate_first(sample):

@@ -90,6 +90,7 @@ PAGE_FIGURES = [
 PAGE_TABLES = {
     "claims": "judge_claims",
     "scaling": "fit_power_laws",
+    "methods": "measure_methods",
     "one_surface": "measure_surfaces",
     "failure_map": "map_failures",
     "rule_costs": "tabulate_rule_costs",

@@ -145,6 +145,7 @@ bench: environment
 	$(BIN)/python benchmarks/curves.py --output results/benchmarks.json
 
 speed stability: SETTINGS = config/methods.yaml
+fine-grids: SETTINGS = config/fine_grids.yaml
 
 speed: environment
 	$(SNAKEMAKE) -- speed

@@ -14,9 +14,9 @@ include: "workflow/rules/common.smk"
 # remains the default target. Not documented: the default target as an attribute.
 IS_DEFAULT = workflow.default_target is None
 
-# Not documented: the files and options that the settings come from. Messages on wrong settings and the page name them.
+# Not documented: the files that the settings come from. Messages on wrong settings and the page name them.
 SETTINGS_FILES = workflow.overwrite_configfiles
-settings, MEASURED = complete(config, SETTINGS_FILES, workflow.config_settings.config)
+settings, MEASURED = complete(config, SETTINGS_FILES)
 config.update(settings)
 
 
@@ -33,7 +33,7 @@ wildcard_constraints:
     kind="discs|measured",
     case="|".join([*DISCS, *MEASURED]),
     line="|".join(LINES),
-    nested="|".join(NESTED),
+    nested="|".join(NESTED) or "no_grid",
     scan="|".join(MEASURED) or "no_scan",
     pool="|".join(cases.POOLS),
     batch=r"\d{4}-\d{4}",

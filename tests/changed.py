@@ -14,7 +14,7 @@ BY_FOLDER = {
     "src": ["tests/viscorough_study/run/test_source_digest.py"],
     "workflow": ["tests/workflow/test_form.py", "tests/workflow/test_run_with_progress.py"],
     "peers": ["tests/benchmarks/test_other_solvers.py"],
-    "config": ["tests/viscorough_study/run/test_settings.py", "tests/docs/test_write_settings.py"],
+    "config": ["tests/viscorough_study/run/test_settings.py"],
     "resources": ["tests/viscorough_study/verdicts/test_claims.py", "tests/docs/test_quoted_numbers.py"],
     "docs": ["tests/docs/test_pages.py", "tests/docs/test_quoted_numbers.py"],
 }

@@ -16,9 +16,13 @@ from support.workflow import HANGS, ROOT, copy_project, environment, merged, rea
 pytestmark = pytest.mark.long
 
 LONG = {
-    "discs": {"hurst": [0.9], "realizations": 2, "combinations": read_settings("config")["discs"]["combinations"][:1]},
-    "lines": {"hurst": [0.9], "points": 16384, "realizations": 60, "batch": 15},
-    "variants": {"cases": []},
+    "hurst": [0.9],
+    "discs": {
+        "realizations": 2,
+        "combinations": read_settings("config")["discs"]["combinations"][:1],
+        "variants": {"surfaces": []},
+    },
+    "lines": {"points": 16384, "realizations": 60, "batch": 15},
 }
 POOL = "results/ensembles/lines.nc"
 GOES_ON = "The last run in this folder was killed: its lock is removed, its results are kept."

@@ -29,7 +29,7 @@ pytestmark = pytest.mark.long
 OTHER = """
 module viscorough:
     snakefile: "{snakefile}"
-    config: {{"discs": {{"elements": 33, "hurst": [0.4, 0.8]}}, "lines": {{"hurst": [0.4, 0.8]}}}}
+    config: {{"hurst": [0.4, 0.8], "discs": {{"elements": 33}}}}
 
 use rule * from viscorough as rough_*
 """

@@ -55,8 +55,8 @@ def add_line(path, line):
     path.write_text(f"{path.read_text()}{line}\n")
 
 
-FEW_STEPS = {"methods": {"levels": 3}, "validation": {"elements": [17, 31]}}
-FEW_STEPS |= {"stability": {"across": 11}, "direct": {"elements": 31}}
+FEW_STEPS = {"methods": {"levels": 3, "stress": {"across": 11}}}
+FEW_STEPS |= {"validation": {"elements": [17, 31], "direct": {"elements": 31}}}
 OF_FEW_STEPS = {"measure_methods", "compare_exact", "map_failures", "compare_direct"}
 FITS = {"match_lambda", "compare_zeta_laws", "judge_claims"}
 
@@ -66,10 +66,10 @@ FITS = {"match_lambda", "compare_zeta_laws", "judge_claims"}
     [
         (FEW_STEPS, OF_FEW_STEPS),
         ({"scaling": {"stiffness_max": 0.25}}, FITS | {"fit_power_laws", "fit_local_slope"}),
-        ({"ensemble": {"per_decade": 25}}, {"aggregate_curves"}),
+        ({"curves": {"per_decade": 25}}, {"aggregate_curves"}),
         ({"surface": {"period": 1.5}}, {"generate_discs", "generate_examples"}),
     ],
-    ids=["few steps", "scaling", "ensemble", "surface"],
+    ids=["few steps", "scaling", "curves", "surface"],
 )
 def test_changed_setting_reruns_only_the_rules_that_use_it(finished_once, tmp_path, with_dependents, changed, directly):
     planned = plan(finished_once, *TEST, settings_file(tmp_path, "changed", **changed))
@@ -85,7 +85,7 @@ def test_changed_lines_rerun_no_rule_that_uses_only_discs(finished_once, tmp_pat
 
 
 def test_further_exponent_reruns_only_its_dependents(finished_once, tmp_path):
-    more = settings_file(tmp_path, "more", discs={"hurst": [0.4, 0.6, 0.9]}, lines={"hurst": [0.4, 0.6, 0.9]})
+    more = settings_file(tmp_path, "more", hurst=[0.9, 0.4, 0.6])
     text = snakemake(finished_once, "--dry-run", *TEST, more)
     cases = set(re.findall(r"^Job \d+: .*\b(h\d{5}\w*)", text, re.MULTILINE))
     assert cases == {"h06000", "h06000_longer_period", "h06000_roll_off"}
@@ -119,7 +119,7 @@ def test_kept_surfaces_belong_to_the_curves(finished):
     with xr.open_dataset(finished / "results/curves/discs/h04000/0000-0001.nc") as curves:
         assert curves["rms_disc"].values.tolist() == kept
     assert plan(finished, *TEST) == {}
-    planned = plan(finished, *TEST, settings_file(finished, "accurate", discs={"tolerance": 5e-3}))
+    planned = plan(finished, *TEST, settings_file(finished, "accurate", curves={"tolerance": 5e-3}))
     assert (planned["generate_discs"], planned["indent_surfaces"]) == (7, 8)  # one file of discs exists
 
 

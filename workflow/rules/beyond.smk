@@ -14,8 +14,8 @@ rule compare_periodic:
     resources:
         mem_mb=1000,
     params:
-        **without("periodic", "hurst"),
-        hursts=config["periodic"]["hurst"],
+        **config["beyond"]["periodic"],
+        hursts=config["hurst"],
         seed=config["seed"],
         source=digest("compare_periodic"),
     message:
@@ -36,9 +36,10 @@ rule compare_reduction:
     resources:
         mem_mb=1000,
     params:
-        **chosen("discs", "elements", "realizations", "tolerance"),
-        **config["reduction"],
-        hursts=config["discs"]["hurst"],
+        **chosen("discs", "elements", "realizations"),
+        **config["beyond"]["reduction"],
+        tolerance=config["curves"]["tolerance"],
+        hursts=config["hurst"],
         seed=config["seed"],
         source=digest("compare_reduction"),
     message:
@@ -60,8 +61,8 @@ rule compare_histories:
     resources:
         mem_mb=1000,
     params:
-        hursts=config["discs"]["hurst"],
-        elements=config["direct"]["elements"],
+        hursts=config["hurst"],
+        elements=config["validation"]["direct"]["elements"],
         seed=config["seed"],
         source=digest("compare_histories"),
     message:
@@ -85,7 +86,8 @@ rule compute_media:
     resources:
         mem_mb=1000,
     params:
-        **config["media"],
+        **chosen("kinetics", "force", "times"),
+        cases=config["kinetics"]["media"],
         discs=cases.first_combination(config),
         rms_convention=SHOWN["rms_convention"],
         source=digest("compute_media"),
@@ -113,7 +115,7 @@ rule fit_interface:
         mem_mb=4000,
     params:
         fit={
-            **config["interface"],
+            **chosen("beyond", "plateau"),
             **chosen("scaling", "fraction_min", "resamples"),
             "seed": config["seed"],
         },

@@ -102,7 +102,6 @@ os.environ.setdefault("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1")  # use large p
 
 try:
     use_packages_of_checkout()
-    from viscorough.io.atomic import path_named
     from viscorough_study.fits.fine_sentence import judged_rows
     from viscorough_study.run import cases
     from viscorough_study.run.kernels import KERNELS_BENCHMARK, compile_once
@@ -110,7 +109,7 @@ try:
     from viscorough_study.run.names import SHOWN
     from viscorough_study.run.paper_data import read_paper, read_records
     from viscorough_study.run.scans import scans
-    from viscorough_study.run.settings import changed_settings, complete_settings, path_shown, source_of
+    from viscorough_study.run.settings import changed_settings, check_settings, complete_settings, path_shown
     from viscorough_study.run.source_digest import SourceDigests
     from viscorough_study.run.stale_locks import remove_stale_locks
 except ModuleNotFoundError as error:  # also raised if a package has no metadata
@@ -167,13 +166,16 @@ if workflow.is_main_process:
 # ---- settings
 
 
-def complete(given, files, options):
+def with_scans(settings):
+    """Check settings; return them in the form in which the workflow uses them, and the cases of scans."""
+    settings = check_settings(settings)
+    return settings, scans(settings["measured"], settings["curves"])
+
+
+def complete(given, files):
     """Complete and check the settings; return them and the cases of scans. End the run if a setting is wrong."""
     try:
-        defaults = PROJECT / "config" / "config.yaml"
-        completed, sources = complete_settings(defaults, given, files, options)
-        with path_named(source_of(["measured"], sources)):
-            return completed, scans(completed["measured"], completed["indentation"])
+        return complete_settings(PROJECT / "config" / "config.yaml", given, files, with_scans)
     except ValueError as error:
         end_run(f"{error}", "in the settings")
 
@@ -224,6 +226,13 @@ def batch_ensembles(table, case, batch):
     if batch not in (existing := cases.batches(table[case])):
         end_run(f"batch {batch} of {case} is not one of the settings; allowed: {', '.join(existing)}")
     return cases.batch_ensembles(table[case], batch)
+
+
+def fine_curves():
+    """Return the files of the curves of discs on several grids; end the run if the settings name no such discs."""
+    if not NESTED:
+        end_run("fine_grids.ensembles is empty; give --configfile config/fine_grids.yaml, or run `make fine-grids`")
+    return cases.nested_files(NESTED)
 
 
 def scan_value(name):

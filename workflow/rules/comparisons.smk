@@ -14,7 +14,7 @@ rule compare_exact:
     resources:
         mem_mb=4000,
     params:
-        **config["validation"],
+        **without("validation", "direct"),
         source=digest("compare_exact"),
     message:
         "Comparison with exact solutions"
@@ -59,8 +59,8 @@ rule compare_direct:
     resources:
         mem_mb=1000,
     params:
-        **config["direct"],
-        hursts=config["discs"]["hurst"],
+        **config["validation"]["direct"],
+        hursts=config["hurst"],
         seed=config["seed"],
         source=digest("compare_direct"),
     message:
@@ -81,7 +81,7 @@ rule map_failures:
     resources:
         mem_mb=4000,
     params:
-        **config["stability"],
+        **config["methods"]["stress"],
         hurst_min=paper("numbers")["agreement"]["beta_hurst_min"]["value"],
         seed=config["seed"],
         source=digest("map_failures"),
@@ -138,8 +138,8 @@ rule evaluate_measured:
     params:
         names=list(MEASURED),
         forces=[scan["forces"] for scan in MEASURED.values()],
-        media=config["media"]["cases"],
-        times=config["media"]["times"],
+        media=config["kinetics"]["media"],
+        times=config["kinetics"]["times"],
         fit=config["scaling"],
         seed=config["seed"],
         source=digest("evaluate_measured"),

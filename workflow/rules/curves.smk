@@ -67,7 +67,7 @@ rule indent_nested:
         mem_mb=lambda wildcards: cases.nested_memory(NESTED[wildcards.nested]),
     params:
         case=lambda wildcards: cases.nested_arguments(NESTED[wildcards.nested], wildcards.batch),
-        tolerance=config["nested_grids"]["tolerance"],
+        tolerance=config["curves"]["tolerance"],
         seed=config["seed"],
         source=digest("indent_nested"),
     message:
@@ -90,11 +90,11 @@ rule aggregate_curves:
     conda:
         "../envs/viscorough.yaml"
     resources:
-        mem_mb=lambda wildcards: cases.pool_memory(CASES, wildcards.pool, config["ensemble"]),
+        mem_mb=lambda wildcards: cases.pool_memory(CASES, wildcards.pool, config["curves"]),
     params:
         groups=lambda wildcards: cases.pool_groups(CASES, wildcards.pool),
         conventions=lambda wildcards: cases.POOLS[wildcards.pool],
-        ensemble=config["ensemble"],
+        ensemble=chosen("curves", "x_low", "per_decade") | {"x_high": config["curves"]["until_x"]},
         source=digest("aggregate_curves"),
     message:
         "Realizations on common abscissae: {wildcards.pool}"

@@ -109,7 +109,7 @@ rule compare_zeta_laws:
 
 rule fit_fine_grids:
     input:
-        curves=cases.nested_files(NESTED),
+        curves=lambda wildcards: fine_curves(),
     output:
         csv="results/tables/fine_exponents.csv",
     log:
@@ -122,7 +122,7 @@ rule fit_fine_grids:
     resources:
         mem_mb=2000,
     params:
-        elements_min=config["nested_grids"]["elements_min"],
+        elements_min=config["fine_grids"]["elements_min"],
         seed=config["seed"],
         source=digest("fit_fine_grids"),
     message:

@@ -141,7 +141,7 @@ rule make_page:
         combinations={name: ensemble["combination"] for name, ensemble in cases.combined_ensembles(config).items()},
         fraction_min=config["scaling"]["fraction_min"],
         made_by=PAGE_TABLES,
-        changed=changed_settings(read_yaml("config/config.yaml"), config),
+        changed=changed_settings(check_settings(read_yaml("config/config.yaml")), config),
         files=[path_shown(path) for path in SETTINGS_FILES],
         source=[digest("make_page"), *text_digests(PAGE_TEXTS)],
     message:

@@ -41,6 +41,7 @@ rule measure_surfaces:
         mem_mb=2000,
     params:
         **config["methods"]["one_surface"],
+        hurst=[0.4, 0.8],
         seed=config["seed"],
         source=digest("measure_surfaces"),
     message:

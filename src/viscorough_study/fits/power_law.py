@@ -69,7 +69,7 @@ def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_widt
     There is no region (b) if no run spans decades_min decades. The Hurst exponent does not enter this rule.
 
     mean : ensemble dataset (ensembles.averages) with a single definition of the rms height
-    config/README.md, section Scaling, describes the limits and recommends values.
+    config/config.yaml, section `scaling`, describes the limits and recommends values.
     """
     log_x, log_velocity = np.log(mean["x"].values), np.log(mean["velocity_geometric"].values)
     allowed = local_slopes(log_x, log_velocity, slope_half_width * np.log(10)) <= slope_max

@@ -66,12 +66,12 @@ def disc_cases(settings):
 
 def _combined_discs(settings):
     """Return the cases of the group "base": discs of all combinations of force, viscosity, diameter and rms height."""
-    cases, discs = {}, settings["discs"]
-    ends = {name: discs[name] for name in ("tolerance", "whole_curves", "short_until_x")}
-    base = {"pool": "discs", "group": "base", "indentation": settings["indentation"] | ends, "side_by_side": True}
+    cases, discs, curves = {}, settings["discs"], settings["curves"]
+    ends = _ends(curves, curves["until_x"], whole=curves["whole"], short_until_x=curves["short_until_x"])
+    base = {"pool": "discs", "group": "base", "indentation": ends, "side_by_side": True}
     base |= {"realizations": discs["realizations"], "batch": discs["batch"]}
-    for hurst in discs["hurst"]:
-        for combination in sorted(discs["combinations"], key=lambda combination: combination["number"] // 10):
+    for hurst in settings["hurst"]:
+        for combination in discs["combinations"]:
             number, lengths = combination["number"], {name: combination[name] for name in ("rms", "diameter")}
             surface = settings["surface"] | {"hurst": hurst, "length_unit": "m"} | lengths
             ensemble = _ensemble(f"{hurst_id(hurst)}_c{number}", seeds.disc_key(hurst, number), surface, discs)
@@ -81,33 +81,42 @@ def _combined_discs(settings):
     return cases
 
 
+def _ends(curves, until_x, *, whole=0, short_until_x=None):
+    """Return the arguments of ensembles.indentation.indent_realization that state the ends and the accuracy of curves.
+
+    curves : section `curves` of the settings; until_x : X at the end of the first `whole` curves, and, by default, of
+        all others
+    """
+    short_until_x = until_x if short_until_x is None else short_until_x
+    ends = {"until_fraction": 1.0, "until_x": until_x, "whole_curves": whole, "short_until_x": short_until_x}
+    return {"tolerance": curves["tolerance"]} | ends
+
+
 def _single_discs(settings):
     """Return the cases of all other discs, which have a single combination, h = L = 1 m."""
-    cases, discs, variants = {}, settings["discs"], settings["variants"]
+    cases, discs, curves = {}, settings["discs"], settings["curves"]
 
     def add(name, pool, group, until_x, ensembles):
-        # All curves end at the same X, so `whole_curves` does not matter.
-        ends = {"until_x": until_x, "short_until_x": until_x, "whole_curves": 0, "tolerance": discs["tolerance"]}
-        indentation = settings["indentation"] | ends
-        cases[name] = _joint_case(ensembles, discs["single_batch"], group, pool=pool, indentation=indentation)
+        ends = _ends(curves, until_x)
+        cases[name] = _joint_case(ensembles, discs["single_batch"], group, pool=pool, indentation=ends)
 
     longer, roll_off = discs["longer_period"], discs["roll_off"]
     changed = {
         "longer_period": ("discs", longer["realizations"], {"period": longer["period"], "rms_over": "square"}),
         "roll_off": ("discs", roll_off["realizations"], {"roll_off_wavelength": roll_off["wavelength"]}),
     }
-    for variant in variants["cases"]:
+    for variant in discs["variants"]["surfaces"]:
         properties = {key: value for key, value in variant.items() if key != "name"}
-        changed[variant["name"]] = ("variants", variants["realizations"], properties)
+        changed[variant["name"]] = ("variants", discs["variants"]["realizations"], properties)
     surface = settings["surface"] | UNIT_DISC
-    for hurst in discs["hurst"]:
+    for hurst in settings["hurst"]:
         for group, (pool, realizations, properties) in changed.items():
             name, grid = f"{hurst_id(hurst)}_{group}", {"elements": discs["elements"], "realizations": realizations}
             key = seeds.variant_key(hurst, group)
             ensemble = _ensemble(name, key, surface | properties | {"hurst": hurst}, grid)
-            add(name, pool, group, discs["region_until_x"], [ensemble])
-    grids = {"coarse": (discs["hurst"], discs["coarse"]["elements"], discs["short_until_x"])}
-    grids["law"] = discs["law"]["hurst"], [discs["elements"]], settings["indentation"]["until_x"]
+            add(name, pool, group, curves["region_until_x"], [ensemble])
+    grids = {"coarse": (settings["hurst"], discs["coarse"]["elements"], curves["short_until_x"])}
+    grids["law"] = discs["law"]["hurst"], [discs["elements"]], curves["until_x"]
     for group, (exponents, elements, until_x) in grids.items():
         realizations = discs[group]["realizations"]
         ensembles = [
@@ -117,7 +126,7 @@ def _single_discs(settings):
                 surface | {"hurst": hurst},
                 {"elements": across, "realizations": realizations},
             )
-            for hurst, across in itertools.product(sorted(exponents), sorted(elements))
+            for hurst, across in itertools.product(exponents, elements)
         ]
         add(group, group, group, until_x, ensembles)
     return cases
@@ -155,11 +164,18 @@ def line_cases(settings):
     lines, cases = settings["lines"], {}
     names = ("amplitudes", "roll_off_wavelength", "roll_off_level")
     surface = {name: settings["surface"][name] for name in names} | UNIT_LINE
-    for hurst in lines["hurst"]:
+    for hurst in _line_exponents(settings):
         line = _ensemble(hurst_id(hurst), seeds.line_key(hurst), surface | {"hurst": hurst}, lines)
-        until_x = settings["indentation"]["until_x"]
+        until_x = settings["curves"]["until_x"]
         cases[line["name"]] = _joint_case([line], lines["batch"], "lines", pool="lines", until_x=until_x)
     return cases
+
+
+def _line_exponents(settings):
+    """Return the Hurst exponents of lines: those of discs, and the multiples of `lines.hurst_step` from 0 to 1."""
+    step = settings["lines"]["hurst_step"]
+    further = [] if step is None else [round(i * step, 4) for i in range(int(1 / step + 1e-9) + 1)]
+    return sorted({*settings["hurst"], *further})
 
 
 def nested_cases(settings):
@@ -170,7 +186,7 @@ def nested_cases(settings):
     until_x, which are arguments of ensembles.nested_grids.nested_curves.
     """
     cases = {}
-    for ensemble in settings["nested_grids"]["ensembles"]:
+    for ensemble in settings["fine_grids"]["ensembles"]:
         coarser = []
         for grid in ensemble["grids"]:
             coarser = [grid["elements"], *coarser]
@@ -201,9 +217,7 @@ def method_problems(settings):
     """Return the arguments of performance.problems.named_problem for every indenter in the comparison of methods."""
     methods = settings["methods"]
     bodies = [{"name": body, "elements": n} for body in methods["bodies"] for n in methods["bodies_elements"]]
-    return bodies + [
-        {"name": "rough disc", "hurst": hurst, "elements": n} for hurst in methods["hurst"] for n in methods["elements"]
-    ]
+    return bodies + [{"name": "rough disc", "hurst": 0.8, "elements": n} for n in methods["elements"]]
 
 
 def first_combination(settings):
@@ -212,7 +226,7 @@ def first_combination(settings):
     The parameters are force, viscosity, diameter and rms height.
     """
     first = settings["discs"]["combinations"][0]["number"]
-    return [f"{hurst_id(hurst)}_c{first}" for hurst in settings["discs"]["hurst"]]
+    return [f"{hurst_id(hurst)}_c{first}" for hurst in settings["hurst"]]
 
 
 def combined_ensembles(settings):
@@ -359,16 +373,16 @@ def line_memory(case):
     return round(BASE_MEMORY + 40 * max(ensemble["points"] for ensemble in case["ensembles"]) / 1e6)
 
 
-def pool_memory(tables, pool, ensemble):
+def pool_memory(tables, pool, curves):
     """Return the memory [MB] of a job that pools curves: for two copies of all realizations on common abscissae.
 
     tables : {kind of surface: {name of a case: description}}
-    ensemble : section `ensemble` of the settings
+    curves : section `curves` of the settings
     """
     cases = [case for case in tables[POOL_KINDS[pool]].values() if case["pool"] == pool]
     members = [member for case in cases for member in case.get("ensembles", [case])]
     realizations = sum(member["realizations"] for member in members)
-    abscissae = 1 + ensemble["per_decade"] * math.log10(ensemble["x_high"] / ensemble["x_low"])
+    abscissae = 1 + curves["per_decade"] * math.log10(curves["until_x"] / curves["x_low"])
     variables = 2 * len(POOLS[pool])
     return round(BASE_MEMORY + 2 * 8 * variables * realizations * abscissae / 1e6)
 

@@ -11,11 +11,11 @@ from pathlib import Path
 from viscorough_study.run.settings_model import ScanGroup
 
 
-def scans(entries, indentation):
+def scans(entries, curves):
     """Return {name of a scan: its description} for all files of measured heights that the setting `measured` names.
 
     entries : setting `measured`; its patterns of files are relative to the working directory
-    indentation : section `indentation` of the settings
+    curves : section `curves` of the settings
 
     Like all descriptions of surfaces for jobs (run.cases), the description of a scan has the keys pool, realizations,
     batch, indentation and group. It also has file, bytes (size of the file) and digest (of the content of the file).
@@ -24,15 +24,18 @@ def scans(entries, indentation):
 
     Raises ValueError if a pattern matches no file, or if two scans have the same name.
     """
-    shared = {"pool": "measured", "realizations": 1, "batch": 1, "indentation": indentation | {"whole_curves": 1}}
+    ends = {"tolerance": curves["measured_tolerance"], "until_fraction": 1.0, "until_x": curves["until_x"]}
+    shared = {"pool": "measured", "realizations": 1, "batch": 1, "indentation": ends | {"whole_curves": 1}}
     shared |= {name: field.default for name, field in ScanGroup.model_fields.items() if not field.is_required()}
     result = {}
     for entry in entries:
         for pattern in entry["files"]:
             matching = map(Path, glob(pattern, recursive=True, include_hidden=True))
             files = sorted(str(path) for path in matching if path.is_file())
+            if braces := [file for file in files if set(file) & set("{}")]:
+                raise ValueError(f"measured, {entry['name']}: {braces[0]} has a brace in its name; rename the file")
             if not files:
-                raise ValueError(f"measured: no file {pattern} of {entry['name']}; allowed: files or patterns of files")
+                raise ValueError(f"measured, {entry['name']}: there is no file {pattern} in {Path.cwd()}")
             for file in files:
                 name = f"{entry['name']}_{re.sub('[^A-Za-z0-9]+', '_', Path(file).stem).strip('_')}"
                 if name in result and result[name]["file"] != file:

@@ -1,47 +1,88 @@
 """Complete the settings of a run with the default settings, and check them.
 
-If settings are wrong, the error message describes the first fault in one line. The model of the settings
-(run.settings_model) has types, limits and rules. Default values are in config/config.yaml.
+If settings are wrong, the error message describes the first fault in one line. The model of the settings is in
+run.settings_model, and the default values are in config/config.yaml.
+
+`python -m viscorough_study.run.settings > settings.schema.json` writes a JSON schema of settings files, for editors.
 """
 
 import difflib
-from functools import cache
+import json
 from pathlib import Path
 
 from pydantic import ValidationError
+from snakemake.utils import update_config
 
-from viscorough_study.run.setting_types import Schema
 from viscorough_study.run.settings_files import read_settings_file
 from viscorough_study.run.settings_model import Settings
-from viscorough_study.run.settings_rules import name_of
+
+GIVEN = "the settings of --config or of the module"  # the source of settings that are in no file
 
 
-def complete_settings(defaults, given, files, options):
-    """Return the settings of a run, completed with default settings, and the sources for `check_settings`.
+def check_settings(settings):
+    """Return settings that agree with their model, in the form in which the workflow uses them.
+
+    settings : mapping of all settings
+    Whole numbers become floating-point numbers where these are expected, and lists are sorted, so that different
+    spellings of the same settings are equal. Raises ValueError, one line with the key, the fault and the value.
+    """
+    try:
+        return Settings.model_validate(settings).model_dump(exclude_unset=True)
+    except ValidationError as error:
+        # A misspelled key, which also leaves its right spelling missing, comes first.
+        faults = sorted(error.errors(include_url=False), key=lambda fault: fault["type"] != "extra_forbidden")
+        raise ValueError(_complaint(faults[0], settings)) from None
+
+
+def complete_settings(defaults, given, files=(), check=check_settings):
+    """Complete the settings of a run with the default settings, and return what `check` returns for them.
 
     defaults : path of the file of the default settings
     given : all settings of this run, from files, from the command line, or from a workflow that uses this workflow as a
         module
-    files, options : paths of settings files, and settings from the command line. They only serve to name the source of
-        a wrong setting in messages.
-    Raises ValueError, one line that names a file, for the first file that cannot be read or the first wrong setting.
+    files : paths of settings files. They only serve to name the source of a wrong setting in messages.
+    check : function that raises ValueError, one line, for wrong settings
+    Raises ValueError, one line that names its source, for a file that cannot be read and for the first wrong setting.
     """
-    sources = {path_shown(defaults): read_settings_file(defaults), "the settings of the module": given}
-    sources |= {path_shown(path): read_settings_file(path) for path in files} | {"--config": options}
-    completed = _merged(sources[path_shown(defaults)], given)
-    check_settings(completed, sources)
-    return completed, sources
+    sources = {path_shown(path): read_settings_file(path) for path in (defaults, *files)} | {GIVEN: given}
+    settings = read_settings_file(defaults)
+    update_config(settings, given)
+    try:
+        return check(settings)
+    except ValueError:
+        settings = {}
+        for name, source in sources.items():
+            update_config(settings, source)
+            try:
+                check(settings)
+            except ValueError as error:
+                raise ValueError(f"{name}: {error}") from None
+        raise
 
 
-def _merged(base, changes):
-    """Return settings with changes applied: mappings are merged at any depth, other values are replaced."""
-    if not (isinstance(base, dict) and isinstance(changes, dict)):
-        return changes
-    return base | {key: _merged(base.get(key), value) for key, value in changes.items()}
+def _complaint(fault, settings):
+    """Return one line about a fault; fault : entry of pydantic.ValidationError.errors()"""
+    *above, key = fault["loc"] or [""]
+    message, value = fault["msg"].removeprefix("Value error, "), fault["input"]
+    if fault["type"] == "extra_forbidden":
+        for part in above:
+            settings = settings[part]
+        close = difflib.get_close_matches(str(key), [name for name in map(str, settings) if name != key], 1)
+        message = "unknown key" + (f"; did you mean {close[0]}?" if close else "")
+    elif fault["type"] not in ("missing", "value_error"):
+        message += f" (it is {repr(value)[:60]})"
+        if fault["type"] in ("float_type", "int_type") and isinstance(value, str):
+            message += "; this is text: write numbers as 1.0e-3, with a point"
+    return " ".join(": ".join(filter(None, [_name(fault["loc"]), message])).split())
+
+
+def _name(path):
+    """Return the name of a setting for messages, such as measured[0].spacing, from its path."""
+    return "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in path).removeprefix(".")
 
 
 def changed_settings(defaults, settings, above=()):
-    """Return the settings that differ from the defaults, {name such as "discs.hurst": (value, default value)}.
+    """Return the settings that differ from the defaults, {name such as "discs.elements": (value, default value)}.
 
     defaults, settings : mappings of all settings, with the same keys; above : keys of the mapping that contains them
     """
@@ -51,7 +92,7 @@ def changed_settings(defaults, settings, above=()):
         if isinstance(value, dict) and isinstance(default, dict):
             changed |= changed_settings(default, value, path)
         elif value != default:
-            changed[name_of(path)] = (value, default)
+            changed[_name(path)] = (value, default)
     return changed
 
 
@@ -60,150 +101,5 @@ def path_shown(path):
     return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path)
 
 
-def check_settings(settings, sources=None):
-    """Raise ValueError unless the settings agree with their model.
-
-    settings : mapping of all settings
-    sources : {name of a source, such as a file: settings from this source}. Later sources override earlier sources.
-        Messages name the source of a wrong setting. By default messages name no source.
-    The message is one line with the source, the key, the value, and the allowed values.
-    """
-    try:
-        Settings.model_validate(settings)
-    except ValidationError as error:
-        paths, complaint = _complaint(min(error.errors(include_url=False), key=lambda found: len(found["loc"])))
-        names = dict.fromkeys(filter(None, (source_of(path, sources or {}) for path in paths)))
-        raise ValueError(": ".join(filter(None, [" and ".join(names), complaint]))) from None
-
-
-def source_of(path, sources):
-    """Return the name of the last source that contains a setting, or None.
-
-    path : keys of the setting, such as ["discs", "hurst"]; sources : see `check_settings`
-    """
-    for name, value in reversed(sources.items()):
-        for key in path:
-            try:
-                value = value[key]
-            except (KeyError, IndexError, TypeError):
-                break
-        else:
-            return name
-    return None
-
-
-def _complaint(error):
-    """Return the paths of the settings that are wrong, and a line about them, from an error of pydantic.
-
-    error : first entry of the `errors` of a pydantic.ValidationError
-    """
-    path, kind = list(error["loc"]), error["type"]
-    name, above = name_of(path) or "settings", name_of(path[:-1]) or "settings"
-    if kind == "contradiction":
-        return error["ctx"]["paths"], error["msg"]
-    if kind in ("extra_forbidden", "invalid_key"):
-        keys = sorted(_rule(path[:-1])["properties"])
-        close = difflib.get_close_matches(str(path[-1]), keys, 1)
-        hint = f"did you mean {close[0]}?" if close else f"allowed: {', '.join(keys)}"
-        return [path], f"unknown key {str(path[-1])!r:.60} in {above}; {hint}"
-    if kind == "missing":
-        return [path[:-1]], f"{above} lacks {path[-1]}; needed: {', '.join(_rule(path[:-1])['required'])}"
-    if kind == "twice":
-        return [path], f"{name}: {error['msg']}"
-    if kind == "changes nothing":
-        return [path], f"{name} {error['msg']}"
-    value, rule = error["input"], _rule(path)
-    is_text = isinstance(value, str) and "number" in rule.get("type", ())
-    hint = "; this is text: write numbers as 1.0e-3, with a point" * is_text
-    value = "empty" if value is None else repr(value)
-    return [path], f"{name} is {value:.60}; allowed: {allowed(rule)}{_unit(rule)} ({_gist(path)}){hint}"
-
-
-# ---- JSON schema; the part of the schema that describes a setting is called a rule
-
-
-@cache
-def schema():
-    """Return the JSON schema of the settings."""
-    return Settings.model_json_schema(schema_generator=Schema)
-
-
-def resolved(rule):
-    """Return a part of the JSON schema. If this part is only a reference to a definition, return the definition."""
-    return schema()["$defs"][rule["$ref"].rpartition("/")[2]] if "$ref" in rule else rule
-
-
-def _rule(path):
-    """Return the part of the JSON schema that describes the setting at a path, such as ["discs", "hurst"]."""
-    rule = schema()
-    for key in path:
-        rule = resolved(rule["items"] if isinstance(key, int) else rule["properties"][key])
-    return rule
-
-
-def allowed(rule):
-    """Return the values that a part of the JSON schema allows, in words, such as "integer, 9 to 4097"."""
-    rule = resolved(rule)
-    kinds = rule["type"] if isinstance(rule["type"], list) else [rule["type"]]
-    if "allowed" in rule:
-        return rule["allowed"]
-    if "enum" in rule:
-        return ", ".join(rule["enum"])
-    if "boolean" in kinds:
-        return "true, false"
-    if "object" in kinds:
-        return "a mapping"
-    if "array" in kinds:
-        return _allowed_items(rule)
-    low = _short(rule["minimum"]) if "minimum" in rule else f"> {_short(rule['exclusiveMinimum'])}"
-    parts = ["integer" * ("integer" in kinds), f"{low} to {_short(rule['maximum'])}"]
-    parts += [f"at most {rule['decimals']} decimals" if "decimals" in rule else "", "null" * ("null" in kinds)]
-    return ", ".join(filter(None, parts))
-
-
-# {type of the items of a list: (noun for the items, words before the allowed values of an item)}, as in "integers, each
-# 1 to 9"
-_ITEMS = {
-    "integer": ("integers", ", each"),
-    "number": ("numbers", ", each"),
-    "string": ("texts", ", each"),
-    "array": ("lists", " of"),
-}
-
-
-def _allowed_items(rule):
-    least, most, items = rule["minItems"], rule["maxItems"], resolved(rule["items"])
-    number, once = f"{least}" if least == most else f"{least} to {most}", rule.get("eachOnce")
-    if items["type"] == "object":
-        return f"{number} mappings" + (f", no `{once}` twice" if once else "")
-    noun, connection = ("values", " of") if "enum" in items else _ITEMS[items["type"]]
-    return f"{number} {noun}{connection} {allowed(items).removeprefix('integer, ')}" + ", none twice" * bool(once)
-
-
-def unit_of(rule):
-    """Return the unit of a setting or, for a list, of its items; "" if there is no unit."""
-    rule = resolved(rule)
-    unit = unit_of(rule["items"]) if "items" in rule else rule.get("unit", "1")
-    return "" if unit == "1" else unit
-
-
-def _unit(rule):
-    unit = unit_of(rule)
-    return f" {unit}" if unit and "items" not in rule else ""
-
-
-def _gist(path):
-    """Return the description of a setting up to its first semicolon.
-
-    For an item of a list that has no description, the description of the list is returned.
-    """
-    meaning = next(filter(None, (_rule(path[:end]).get("description") for end in range(len(path), -1, -1))))
-    return meaning.partition(";")[0].rstrip(".")
-
-
-def _short(number):
-    """Return a number as short text, such as 10000, 0.01, 1e-8."""
-    if isinstance(number, int):
-        return str(number)
-    mantissa, _, exponent = f"{number:g}".partition("e")
-    return f"{mantissa}e{int(exponent)}" if exponent else mantissa
+if __name__ == "__main__":
+    print(json.dumps(Settings.model_json_schema(), indent=2))

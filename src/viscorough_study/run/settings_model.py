@@ -1,271 +1,269 @@
-"""Define the model of the settings: every key with its type, limits, unit and meaning.
+"""Define the model of the settings: the type and the limits of every key, and the rules between keys.
 
-`python docs/write_settings.py` writes the JSON schema workflow/schemas/config.schema.yaml and the tables of
-config/README.md from this model. Default values are in config/config.yaml; the model itself has values only for keys
-that may be omitted. Rules that involve several settings are in run.settings_rules.
+config/config.yaml has the default values and says what every key means. A rule between keys is here only if a job would
+fail without it. Lists of which the order does not matter are sorted, so that their order changes no job.
 
 X is the dimensionless force F/(4GhL), κ is the dimensionless stiffness k/(4GL), h is the rms height, and L is the
 diameter of an indenter or the length of a line.
 """
 
-from typing import Any, Literal
+from itertools import pairwise
+from operator import attrgetter
+from typing import Annotated, Any, Literal
 
-from pydantic import ConfigDict, model_validator
-from pydantic_core import PydanticCustomError
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
-from viscorough_study.run.setting_types import Section, meaning, real, several, text, whole
-from viscorough_study.run.settings_rules import contradictions
+from viscorough.basics.units import length_unit
+from viscorough.io.medium_files import medium_from_mapping
+from viscorough.media.kinds import KINDS
+from viscorough.surfaces.indenter import LARGEST_ASPECT
 
-HURST = real(0, 1, decimals=4)
-HURST_EXPONENTS = several(HURST, 1, 101, once=True)
-FORCE = real(above=0, high=1e12, unit="N")
-NAME = text(r"^[a-z][a-z_]{2,30}$(?!\n)", "a-z and _, at least three")
+
+class Item(BaseModel):
+    """Base class of mappings in lists, which are given as a whole; unknown keys, inf and nan are errors."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+
+
+class Section(Item):
+    """Base class of sections. In the JSON schema no key is required, since a file may give only some keys."""
+
+    model_config = ConfigDict(json_schema_extra=lambda schema: schema.pop("required", None))
+
+
+def whole(low, high):
+    """Return the type of whole numbers from `low` to `high`."""
+    return Annotated[int, Field(ge=low, le=high)]
+
+
+def real(low=None, high=None, *, above=None):
+    """Return the type of numbers from `low` to `high`, or of numbers above `above` up to `high`."""
+    return Annotated[float, Field(ge=low, gt=above, le=high)]
+
+
+def several(item, least, most, key=None):
+    """Return the type of lists of `least` to `most` different items, which are sorted.
+
+    item : type of the items; key : for mappings, the name of the key whose values must differ
+    """
+
+    def check(items):
+        value_of = attrgetter(key) if key else lambda item: item
+        items = sorted(items, key=value_of)
+        if twice := [value_of(one) for one, other in pairwise(items) if value_of(one) == value_of(other)]:
+            raise ValueError(f"{key or 'the value'} {twice[0]} occurs twice")
+        return items
+
+    return Annotated[list[item], Field(min_length=least, max_length=most), AfterValidator(check)]
+
+
+def _four_decimals(value):
+    if value != round(value, 4):
+        raise ValueError("at most four decimals are allowed, as in the names of files")
+    return value
+
+
+HURST = Annotated[real(0, 1), AfterValidator(_four_decimals)]
+HURST_EXPONENTS = several(HURST, 1, 101)
+FORCE = real(above=0, high=1e12)
+NAME = Annotated[str, Field(pattern=r"^[a-z][a-z_]{2,30}$")]
 REALIZATIONS = whole(2, 10_000)
 BATCH = whole(1, 10_000)
+TOLERANCE = real(1e-8, 0.1)
 X = real(1e-15, 1e4)
-TEN_TIMES = "at least ten times"
 
 
-class Combination(Section):
-    """One combination of force, viscosity, diameter and rms height."""
-
-    number: whole(1, 99) = meaning(
-        "number of the combination in file names and seeds; renumbering gives other surfaces, reordering does not"
-    )
-    force: real(1e-12, 1e9, unit="N") = meaning("constant force F; affects only the time axis in SI units")
-    viscosity: real(1e-9, 1e15, unit="Pa s") = meaning(
-        "shear viscosity η of the half-space; affects only the time axis in SI units"
-    )
-    diameter: real(1e-9, 1e3, unit="m") = meaning("diameter L of the indenter")
-    rms: real(1e-12, 10, unit="m") = meaning(
-        "nominal rms height h; small compared with L, because half-space theory requires small slopes",
-        also="from 1e-12 L, below L/100",
-    )
+def _decade(low, high, names):
+    """Raise ValueError unless there is a decade between two settings; names : such as "x_low and x_high"."""
+    if high < 10 * low * (1 - 1e-9):  # the factor 1 − 1e-9 allows for rounding
+        raise ValueError(f"{names}: {low:g} and {high:g}; the second must be at least ten times the first")
 
 
-PERIOD = real(1, 16, unit="L")
-FOUR_ELEMENTS = "at least four elements"
+class Combination(Item):
+    """One combination of force [N], viscosity [Pa s], diameter and rms height [m]."""
+
+    number: whole(1, 99)
+    force: real(1e-12, 1e9)
+    viscosity: real(1e-9, 1e15)
+    diameter: real(1e-9, 1e3)
+    rms: real(1e-12, 10)
+
+
+PERIOD = real(1, 16)
+WAVELENGTH = real(above=0, high=16)
 
 
 class LongerPeriod(Section):
     """Discs that are cut from a square larger than the disc, with h of the square: a second reading of the paper."""
 
-    period: PERIOD = meaning("period of the square that these discs are cut from")
-    realizations: REALIZATIONS = meaning("surfaces per Hurst exponent, all with h = L = 1 m")
+    period: PERIOD
+    realizations: REALIZATIONS
 
 
 class RollOffDiscs(Section):
     """Control discs whose spectrum has no long waves, so that their curves follow no power law."""
 
-    wavelength: real(above=0, high=16, unit="L") = meaning("longest wavelength", also=FOUR_ELEMENTS)
-    realizations: REALIZATIONS = meaning("surfaces per Hurst exponent")
+    wavelength: WAVELENGTH
+    realizations: REALIZATIONS
 
 
 class Coarse(Section):
     """Discs on coarse grids, whose means are compared with the means on the grid of `discs.elements`."""
 
-    elements: several(whole(9, 4097), 1, 12, once=True) = meaning("elements across the discs of each grid")
-    realizations: REALIZATIONS = meaning("surfaces per Hurst exponent and grid")
+    elements: several(whole(9, 4097), 1, 12)
+    realizations: REALIZATIONS
 
 
 class LawDiscs(Section):
-    """Discs of Hurst exponents that `discs.hurst` lacks, for the calibrated law."""
+    """Discs of further Hurst exponents, for the calibrated law."""
 
-    hurst: HURST_EXPONENTS = meaning("Hurst exponents of these discs")
-    realizations: REALIZATIONS = meaning("surfaces per Hurst exponent, whose curves go on to `indentation.until_x`")
-
-
-class Discs(Section):
-    """Self-affine discs with lengths in metres, indented by boundary elements."""
-
-    hurst: HURST_EXPONENTS = meaning(
-        "Hurst exponents H of the discs", also="each also in `lines.hurst`, since λ(H) needs both"
-    )
-    elements: whole(9, 4097) = meaning("elements across the diameter; the paper has 257")
-    tolerance: real(1e-8, 0.1) = meaning(
-        "relative accuracy of the curves of ensembles; it replaces `indentation.tolerance`, since a mean over many "
-        "curves needs less accuracy than a single curve "
-        "([Ensembles](../docs/verification.md#the-tolerance-of-ensembles))"
-    )
-    realizations: REALIZATIONS = meaning("surfaces per combination and Hurst exponent; the paper has at least 80")
-    whole_curves: whole(1, 10_000) = meaning(
-        "number of realizations, the first ones of every combination and variant, whose curves go on to "
-        "`indentation.until_x`; beyond `discs.short_until_x` means are over these"
-    )
-    short_until_x: real(above=0, high=1e4) = meaning(
-        "X at which the curves of further realizations end",
-    )
-    batch: BATCH = meaning(
-        "realizations of every combination in a job; at most these are lost when it is killed. A change alters no "
-        "result, but all of these curves are computed again"
-    )
-    longer_period: LongerPeriod
-    roll_off: RollOffDiscs
-    coarse: Coarse
-    law: LawDiscs
-    single_batch: BATCH = meaning("realizations per job of the ensembles that have a single combination")
-    region_until_x: real(above=0, high=1e4) = meaning(
-        "X at which curves end that only the fits in region (b) use", also=f"{TEN_TIMES} `ensemble.x_low`"
-    )
-    combinations: several(Combination, 1, 99, once="number") = meaning(
-        "combinations of force, viscosity, diameter and rms height, as in the paper's Fig. 2; each has its own "
-        "surfaces. The nine values are ours, because the paper does not list its own"
-    )
-
-
-AMPLITUDES = Literal["random", "fixed"]
-RMS_OVER = Literal["disc", "square"]
-ROLL_OFF_WAVELENGTH = real(above=0, high=16, unit="L") | None
-ROLL_OFF_LEVEL = real(0, 1)
+    hurst: HURST_EXPONENTS
+    realizations: REALIZATIONS
 
 
 class Surface(Section):
     """Properties of surfaces that the paper does not state; default values for all ensembles."""
 
-    period: PERIOD = meaning(
-        "period of the square that a disc is cut from; 1: the disc spans the period, 2: it is a part of a surface of "
-        "longer period"
-    )
-    corners: bool = meaning("whether the corners of the Fourier square, beyond the Nyquist circle, contain waves")
-    amplitudes: AMPLITUDES = meaning(
-        "amplitudes of the waves of discs and lines; random: complex Gaussian (a Gaussian process), fixed: the square "
-        "root of the spectrum, with random phases"
-    )
-    rms_over: RMS_OVER = meaning(
-        "elements over which the rms height of every realization is the nominal h; the rms heights by every "
-        "convention are stored and used in ensembles"
-    )
-    roll_off_wavelength: ROLL_OFF_WAVELENGTH = meaning(
-        "longest wavelength of the power law, of discs and lines; null: no roll-off",
-        also=f"{FOUR_ELEMENTS} of the coarsest grid",
-    )
-    roll_off_level: ROLL_OFF_LEVEL = meaning(
-        "spectral density of longer waves relative to that at the roll-off wavelength, of discs and lines; 0: none, "
-        "1: a plateau"
-    )
+    period: PERIOD
+    corners: bool
+    amplitudes: Literal["random", "fixed"]
+    rms_over: Literal["disc", "square"]
+    roll_off_wavelength: WAVELENGTH | None
+    roll_off_level: real(0, 1)
 
 
-class Variant(Section):
+class Variant(Item):
     """A variant of the surfaces: a name, and at least one key of `surface` with another value."""
 
-    model_config = ConfigDict(json_schema_extra={"minProperties": 2})
-
-    name: text(
-        r"^(?!(base|coarse|law|lines|longer_period|roll_off)$)[a-z][a-z_]{2,30}$(?!\n)",
-        "a-z and _, at least three, not `base`, `coarse`, `law`, `lines`, `longer_period`, `roll_off`",
-    ) = meaning("name in file names, tables and seeds")
-    period: PERIOD = meaning("replaces `surface.period`", None)
-    corners: bool = meaning("replaces `surface.corners`", None)
-    amplitudes: AMPLITUDES = meaning("replaces `surface.amplitudes`", None)
-    rms_over: RMS_OVER = meaning("replaces `surface.rms_over`", None)
-    roll_off_wavelength: ROLL_OFF_WAVELENGTH = meaning(
-        "replaces `surface.roll_off_wavelength`",
-        None,
-        also=FOUR_ELEMENTS,
-    )
-    roll_off_level: ROLL_OFF_LEVEL = meaning("replaces `surface.roll_off_level`", None)
+    name: NAME
+    period: PERIOD = None
+    corners: bool = None
+    amplitudes: Literal["random", "fixed"] = None
+    rms_over: Literal["disc", "square"] = None
+    roll_off_wavelength: WAVELENGTH | None = None
+    roll_off_level: real(0, 1) = None
 
     @model_validator(mode="after")
-    def _changes_something(self):
+    def _check(self):
+        if self.name in (taken := ("base", "coarse", "law", "lines", "longer_period", "roll_off")):
+            raise ValueError(f"the names {', '.join(taken)} are taken")
         if self.model_fields_set == {"name"}:
-            raise PydanticCustomError("changes nothing", "changes nothing; allowed: a name and a key of surface")
+            raise ValueError("it changes nothing; a key of `surface` is needed")
         return self
 
 
 class Variants(Section):
-    """Further ensembles of discs (h = L = 1 m), each with some choices of `surface` changed, for the sensitivities."""
+    """Further ensembles of discs (h = L = 1 m), each with some properties of `surface` changed."""
 
-    realizations: REALIZATIONS = meaning("surfaces per variant and Hurst exponent")
-    cases: several(Variant, 0, 20, once="name") = meaning("the variants; each has a name and at least one further key")
+    realizations: REALIZATIONS
+    surfaces: several(Variant, 0, 20, "name")
 
 
-class Indentation(Section):
-    """Loading path of the discs in elastic contact."""
+class Discs(Section):
+    """Self-affine discs, indented by boundary elements."""
 
-    tolerance: real(1e-8, 0.1) = meaning(
-        "relative accuracy of depth, force and stiffness of each level; and of the interpolation between levels"
-    )
-    until_fraction: real(1e-6, 1) = meaning("share of the elements in contact at which a curve ends")
-    until_x: real(1e-14, 1e4) = meaning(
-        "X = F/(4GhL) at which a curve ends if it is reached first; h is the larger of the two rms heights",
-        also=f"{TEN_TIMES} `ensemble.x_low`",
-    )
+    elements: whole(9, 4097)
+    realizations: REALIZATIONS
+    batch: BATCH
+    combinations: several(Combination, 1, 99, "number")
+    single_batch: BATCH
+    longer_period: LongerPeriod
+    roll_off: RollOffDiscs
+    coarse: Coarse
+    law: LawDiscs
+    variants: Variants
+
+
+class Curves(Section):
+    """Loading curves: their ends, their accuracy, and the abscissae of their means."""
+
+    whole: whole(1, 10_000)
+    until_x: X
+    short_until_x: X
+    region_until_x: X
+    tolerance: TOLERANCE
+    measured_tolerance: TOLERANCE
+    x_low: X
+    per_decade: whole(2, 200)
+
+    @model_validator(mode="after")
+    def _check(self):
+        for name in ("until_x", "short_until_x", "region_until_x"):
+            _decade(self.x_low, getattr(self, name), f"x_low and {name}")
+        return self
 
 
 class Lines(Section):
     """Self-affine lines (h = L = 1 m) for the method of dimensionality reduction."""
 
-    hurst: HURST_EXPONENTS = meaning("Hurst exponents of the lines", also="with all of `discs.hurst`")
-    points: whole(256, 2**26) = meaning(
-        "points of a line; the paper has 4 000 000. Lines are generated in the job that computes their curves, and "
-        "not stored"
-    )
-    realizations: REALIZATIONS = meaning("lines per Hurst exponent; the paper has 500")
-    batch: BATCH = meaning("lines per job")
-
-
-class Ensemble(Section):
-    """Abscissae X common to all curves."""
-
-    x_low: X = meaning("lowest abscissa X = F/(4GhL) = Ft/(4ηhL)")
-    x_high: X = meaning("highest abscissa", also=f"{TEN_TIMES} `x_low`")
-    per_decade: whole(2, 200) = meaning("abscissae per decade; their decimal logarithms are multiples of 1/per_decade")
+    hurst_step: Annotated[real(1e-2, 1), AfterValidator(_four_decimals)] | None
+    points: whole(256, 2**26)
+    realizations: REALIZATIONS
+    batch: BATCH
 
 
 class Scaling(Section):
     """Region (b) of a mean curve, the window of the power law, and the bootstrap."""
 
-    elements_min: real(1, 1e6) = meaning(
-        "smallest number of elements in contact (median over realizations); below, the discretisation affects the curve"
-    )
-    stiffness_max: real(above=0, high=1) = meaning(
-        "highest κ = k/(4GL); above, the finite size of the indenter affects the curve"
-    )
-    slope_max: real(above=0, high=1) = meaning("largest local slope; it is 1 in the regions (a) and (c)")
-    slope_half_width: real(above=0, high=2, unit="decades") = meaning(
-        "half the width of the interval of X over which a local slope is fitted; in narrower ones the slope of some "
-        "tens of realizations is dominated by noise",
-        also="at least 1/`ensemble.per_decade`",
-    )
-    fraction_min: real(above=0, high=1) = meaning(
-        "smallest share of the realizations whose curve is defined at an abscissa; the mean over fewer is biased"
-    )
-    decades_min: real(above=0, high=10, unit="decades") = meaning(
-        "shortest window; over less than a factor of three in X any smooth curve looks like a power law"
-    )
-    stiffness_range: several(real(above=0, high=1), 2, 2) = meaning(
-        "lower and upper κ of the window `kappa`; the same state of contact on any grid", also="in ascending order"
-    )
-    resamples: whole(10, 1_000_000) = meaning("bootstrap samples of each fit")
+    elements_min: real(1, 1e6)
+    stiffness_max: real(above=0, high=1)
+    slope_max: real(above=0, high=1)
+    slope_half_width: real(above=0, high=2)
+    fraction_min: real(above=0, high=1)
+    decades_min: real(above=0, high=10)
+    stiffness_range: Annotated[list[real(above=0, high=1)], Field(min_length=2, max_length=2)]
+    resamples: whole(10, 1_000_000)
 
-
-class Interface(Section):
-    """The rough interface, in series with the flat punch."""
-
-    plateau: real(above=0, high=0.5) = meaning(
-        "share of its maximum by which the contribution of the interface to vt/h is lower at the ends of the plateau"
-    )
+    @model_validator(mode="after")
+    def _check(self):
+        low, high = self.stiffness_range
+        if low >= high:
+            raise ValueError(f"stiffness_range: {low:g} and {high:g}; the second must be above the first")
+        return self
 
 
 class RollOff(Section):
     """Roll-off of the second spectrum of the periodic surfaces."""
 
-    wavelength: real(above=0, high=1) = meaning(
-        "longest wavelength of the power law over the period; of the second spectrum", also=FOUR_ELEMENTS
-    )
-    level: real(0, 1) = meaning("spectral density of longer waves relative to that at the roll-off")
+    wavelength: real(above=0, high=1)
+    level: real(0, 1)
 
 
 class Periodic(Section):
-    """Test of the model of two springs: contact of surfaces with the same spectra on a periodic half-space."""
+    """Contact of surfaces with the same spectra on a periodic half-space."""
 
-    hurst: HURST_EXPONENTS = meaning("Hurst exponents")
-    points: whole(16, 4096) = meaning("elements along a side of the periodic square")
-    surfaces: whole(2, 100_000) = meaning("surfaces of each Hurst exponent and spectrum")
+    points: whole(16, 4096)
+    surfaces: whole(2, 100_000)
     roll_off: RollOff
-    x_low: real(1e-15, 1000) = meaning("lowest X = (π/4) p L/(E* h) of the levels")
-    x_high: real(1e-15, 1000) = meaning("highest X of the levels", also=f"{TEN_TIMES} `x_low`")
-    per_decade: whole(2, 100) = meaning("levels per decade of X")
+    x_low: real(1e-15, 1000)
+    x_high: real(1e-15, 1000)
+    per_decade: whole(2, 100)
+
+    @model_validator(mode="after")
+    def _check(self):
+        _decade(self.x_low, self.x_high, "x_low and x_high")
+        return self
+
+
+class Reduction(Section):
+    """Comparison of the method of dimensionality reduction with boundary elements, surface by surface."""
+
+    x_low: real(1e-15, 0.1)
+    x_high: X
+    per_decade: whole(2, 200)
+
+    @model_validator(mode="after")
+    def _check(self):
+        _decade(self.x_low, self.x_high, "x_low and x_high")
+        return self
+
+
+class Beyond(Section):
+    """What goes beyond the paper."""
+
+    plateau: real(above=0, high=0.5)
+    periodic: Periodic
+    reduction: Reduction
 
 
 LIMIT = real(above=0, high=1)
@@ -274,233 +272,212 @@ LIMIT = real(above=0, high=1)
 class Limits(Section):
     """Largest allowed relative error on the finest grid, for each quantity."""
 
-    force: LIMIT = meaning("largest relative error of the force on sphere and cone")
-    depth: LIMIT = meaning(
-        "largest relative error of the depth of sphere and cone; at given impulse or, by the MDR, at given force"
-    )
-    stiffness: LIMIT = meaning("largest relative error of the stiffness of sphere and cone")
-    velocity: LIMIT = meaning(
-        "largest relative error of the velocity of sphere and cone; under constant and rising force"
-    )
-    area: LIMIT = meaning("largest relative error of the contact area of sphere and cone")
-    punch_stiffness: LIMIT = meaning("largest relative error of the stiffness of a flat disc and a flat ellipse")
-    correspondence: LIMIT = meaning(
-        "largest relative error of the depth of a rough disc; the correspondence against direct integration in time, "
-        "contact event by event"
-    )
-
-
-class Validation(Section):
-    """Comparison with exact solutions."""
-
-    elements: several(whole(17, 1025), 1, 8, once=True) = meaning(
-        "elements across the body; three or more grids show the order of convergence"
-    )
-    order_margin: real(0, 2) = meaning("amount by which an observed order of convergence may be below the expected one")
-    limits: Limits
+    force: LIMIT
+    depth: LIMIT
+    stiffness: LIMIT
+    velocity: LIMIT
+    area: LIMIT
+    punch_stiffness: LIMIT
+    correspondence: LIMIT
 
 
 class Direct(Section):
-    """Comparison of direct integration in time with both readings of the law, and with the row of springs."""
+    """Comparison of direct integration in time with both readings of the law."""
 
-    elements: whole(9, 257) = meaning("elements across the indenters whose motion is integrated directly in time")
-    impulses: whole(2, 10_000) = meaning("impulses ∫F dt/η at which depths are compared, for each indenter")
+    elements: whole(9, 257)
+    impulses: whole(2, 10_000)
+
+
+class Validation(Section):
+    """Comparison with exact solutions, and with direct integration."""
+
+    elements: several(whole(17, 1025), 1, 8)
+    order_margin: real(0, 2)
+    limits: Limits
+    direct: Direct
 
 
 class Times(Section):
-    """Times of the tables of depth and velocity, in a geometric sequence."""
+    """Times of the tables of depth and velocity [s], in a geometric sequence."""
 
-    low: real(1e-30, 1e30, unit="s") = meaning("first time")
-    high: real(1e-30, 1e30, unit="s") = meaning("last time", also=f"{TEN_TIMES} `low`")
-    per_decade: whole(2, 200) = meaning("times per decade")
+    low: real(1e-30, 1e30)
+    high: real(1e-30, 1e30)
+    per_decade: whole(2, 200)
+
+    @model_validator(mode="after")
+    def _check(self):
+        _decade(self.low, self.high, "low and high")
+        return self
 
 
-POSITIVE = {"above": 0, "high": 1e30}
-
-
-class MediumCase(Section):
+class Medium(Item):
     """A medium: its name, its kind, and the parameters of this kind."""
 
-    name: NAME = meaning("name in tables and figures")
-    kind: Literal["newtonian", "maxwell", "kelvin_voigt", "standard_linear_solid", "prony", "springpot"] = meaning(
-        "kind of medium"
-    )
-    viscosity: real(**POSITIVE, unit="Pa s") = meaning("viscosity of `newtonian`, `maxwell`, `kelvin_voigt`", None)
-    shear_modulus: real(**POSITIVE, unit="Pa") = meaning("shear modulus of `maxwell`, `kelvin_voigt`", None)
-    instantaneous_modulus: real(**POSITIVE, unit="Pa") = meaning(
-        "shear modulus of `standard_linear_solid` at t = 0", None
-    )
-    relaxed_modulus: real(0, 1e30, unit="Pa") = meaning(
-        "shear modulus of `standard_linear_solid` and `prony` at t → ∞", None, also="0 for `prony` only"
-    )
-    relaxation_time: real(**POSITIVE, unit="s") = meaning("relaxation time of `standard_linear_solid`", None)
-    moduli: several(real(**POSITIVE, unit="Pa"), 1, 100) = meaning("shear moduli of the branches of `prony`", None)
-    relaxation_times: several(real(**POSITIVE, unit="s"), 1, 100) = meaning(
-        "relaxation times of the branches of `prony`", None
-    )
-    modulus: real(**POSITIVE, unit="Pa sᵃ") = meaning("coefficient K of `springpot`; J = tᵃ/(K Γ(1 + a))", None)
-    exponent: real(above=0, high=1) = meaning(
-        "exponent a of `springpot`", None, also="below 1, where it is `newtonian`"
-    )
+    model_config = ConfigDict(extra="allow")
+
+    name: NAME
+    kind: str
+
+    @model_validator(mode="after")
+    def _check(self):
+        medium_from_mapping(self.model_dump(exclude={"name"}))
+        return self
 
 
-class Media(Section):
-    """Media other than the paper's, into which the discs of the first combination penetrate."""
+def _in_order_of_kinds(media):
+    return sorted(media, key=lambda medium: list(KINDS).index(medium.kind))
 
-    force: FORCE = meaning("constant force F, from time 0 on")
+
+class Kinetics(Section):
+    """Motion of the discs in other media, under a constant force [N] from time 0 on."""
+
+    force: FORCE
     times: Times
-    cases: several(MediumCase, 1, 6, once="name") = meaning("the media")
+    media: Annotated[several(Medium, 1, 6, "name"), AfterValidator(_in_order_of_kinds)]
 
 
-class Preparation(Section):
+class Preparation(Item):
     """Steps that prepare heights, in the order in which they are applied."""
 
-    nodata: several(real(-1e300, 1e300, unit="unit of the heights"), 0, 10) = meaning(
-        "values that mark points that were not measured", None
-    )
-    crop: several(several(whole(0, 1_000_000), 2, 2), 2, 2) = meaning(
-        "first column and end, first row and end, from 0; ends are not included",
-        None,
-        also="each end above the first number",
-    )
-    flip: bool = meaning("whether the sign is changed, for data in which larger is lower", None)
-    detrend: Literal["none", "mean", "plane", "sphere"] = meaning("surface that is fitted and subtracted", None)
-    fill: Literal["none", "harmonic"] = meaning("method that fills enclosed regions without heights", None)
+    nodata: several(real(-1e300, 1e300), 0, 10) = None
+    crop: Annotated[
+        list[Annotated[list[whole(0, 1_000_000)], Field(min_length=2, max_length=2)]],
+        Field(min_length=2, max_length=2),
+    ] = None
+    flip: bool = None
+    detrend: Literal["none", "mean", "plane", "sphere"] = None
+    fill: Literal["none", "harmonic"] = None
+
+    @model_validator(mode="after")
+    def _check(self):
+        for first, end in self.crop or []:
+            if first >= end:
+                raise ValueError(f"crop: {first} to {end} is empty; the end must be above the first number")
+        return self
 
 
-class ScanGroup(Section):
+class ScanGroup(Item):
     """A group of scans that are read and prepared alike."""
 
-    name: NAME = meaning("name of the group in tables and file names")
-    files: several(text(r"^[^\n]+$", "without line breaks"), 1, 1000) = meaning(
-        "files or patterns of files; relative to the folder where the workflow runs"
-    )
-    spacing: several(real(above=0, high=1e12, unit="unit of the heights"), 0, 2) = meaning(
-        "distance between neighbouring columns and rows; one number for both, none if the file states it", []
-    )
-    unit: text(r"^[^\n]{1,20}$", "a unit of length") = meaning(
-        "unit of heights and spacing, if the file states none", None
-    )
-    preparation: Preparation = meaning("preparation of the heights, in this order", {})
-    forces: several(FORCE, 0, 20, once=True) = meaning("constant forces, from time 0 on, for the kinetics", [])
-    young_modulus: real(above=0, high=1e15, unit="Pa") = meaning(
-        "Young's modulus of an elastic half-space, for a table of contacts under the forces; without it there is none",
-        None,
-    )
-    poisson_ratio: real(above=-1, high=0.5) = meaning("Poisson ratio of the elastic half-space", 0.5)
+    name: NAME
+    files: several(Annotated[str, Field(pattern=r"^[^\n{}]+$")], 1, 1000)
+    spacing: Annotated[list[real(above=0, high=1e12)], Field(max_length=2)] = []
+    unit: Annotated[str, AfterValidator(length_unit)] = None
+    preparation: Preparation = {}
+    forces: several(FORCE, 0, 20) = []
+    young_modulus: real(above=0, high=1e15) = None
+    poisson_ratio: real(above=-1, high=0.5) = 0.5
+
+    @model_validator(mode="after")
+    def _check(self):
+        if self.spacing and max(self.spacing) > LARGEST_ASPECT * min(self.spacing):
+            raise ValueError(f"spacing: the distances must differ by at most a factor of {LARGEST_ASPECT}")
+        return self
 
 
-class Reduction(Section):
-    """Comparison of the method of dimensionality reduction with boundary elements, surface by surface."""
-
-    x_low: real(1e-15, 0.1) = meaning("lowest abscissa X at which a line is compared with its disc")
-    x_high: X = meaning("highest abscissa", also=f"{TEN_TIMES} `x_low`")
-    per_decade: whole(2, 200) = meaning("abscissae per decade")
-
-
-ROUGH_GRIDS = several(whole(9, 1025), 1, 8, once=True)
+ROUGH_GRIDS = several(whole(9, 1025), 1, 8)
 
 
 class OneSurface(Section):
     """Surfaces on which all models of a single surface are compared."""
 
-    hurst: several(HURST, 2, 4, once=True) = meaning(
-        "Hurst exponents of the surfaces on which grids, the MDR and the law are measured; the law "
-        "is left out where it is not calibrated"
-    )
-    elements: whole(65, 2049) = meaning(
-        "elements across the full map, to which all are compared; the grids are every second to every sixteenth point "
-        "of it"
-    )
-    surfaces: whole(1, 1000) = meaning("surfaces of each Hurst exponent; errors are root mean squares over them")
+    elements: whole(65, 2049)
+    surfaces: whole(1, 1000)
+
+
+class Stress(Section):
+    """Stress tests, which show where the methods fail."""
+
+    across: whole(9, 65)
+    grids: several(whole(9, 2049), 1, 8)
 
 
 class Methods(Section):
-    """Comparison of the speed and the accuracy of all methods."""
+    """Comparison of the speed, the accuracy and the limits of all methods."""
 
-    hurst: HURST_EXPONENTS = meaning("Hurst exponents of the rough discs")
-    elements: ROUGH_GRIDS = meaning(
-        "elements across the rough discs; slow methods are measured only up to limits from 65 to 257"
-    )
-    bodies: several(Literal["sphere", "cone"], 0, 2, once=True) = meaning(
-        "bodies of revolution in addition to the rough discs"
-    )
-    bodies_elements: ROUGH_GRIDS = meaning("elements across the bodies of revolution")
-    levels: whole(3, 1000) = meaning("depths at which velocities are compared")
-    repeats: whole(1, 100) = meaning("timed repeats, interleaved; their medians are taken")
-    longest: real(0.01, 3600, unit="s") = meaning(
-        "time from which on a method is neither repeated nor tried at finer values of its parameter"
-    )
+    elements: ROUGH_GRIDS
+    bodies: several(Literal["sphere", "cone"], 0, 2)
+    bodies_elements: ROUGH_GRIDS
+    levels: whole(3, 1000)
+    repeats: whole(1, 100)
+    longest: real(0.01, 3600)
     one_surface: OneSurface
+    stress: Stress
 
 
-class Stability(Section):
-    """Stress tests, which show where the methods fail."""
-
-    across: whole(9, 65) = meaning(
-        "elements across the indenters of all stress-test cases but those that vary the grid"
-    )
-    grids: several(whole(9, 2049), 1, 8, once=True) = meaning(
-        "elements across the discs of the stress-test cases that vary the grid"
-    )
-
-
-class NestedGrid(Section):
+class FineGrid(Item):
     """A grid on which discs are indented, and also on all coarser grids of the list."""
 
-    elements: whole(3, 16385) = meaning("elements across the discs", also="odd")
-    surfaces: whole(0, 1_000_000) = meaning(
-        "discs that are indented on this grid and on all coarser grids", also="at least 20 on the finest grid"
-    )
-    until_x: real(1e-6, 1.0) = meaning(
-        "X = F/(4GhL) at which the curves end, with h over all waves of the spectrum",
-        also="at most the value of the next coarser grid",
-    )
-    batch: whole(1, 1_000_000) = meaning("discs per job")
+    elements: Annotated[whole(3, 16385), Field(json_schema_extra={"not": {"multipleOf": 2}})]
+    surfaces: whole(0, 1_000_000)
+    until_x: real(1e-6, 1.0)
+    batch: whole(1, 1_000_000)
 
 
-class NestedEnsemble(Section):
-    """Discs of one Hurst exponent on grids from coarse to fine."""
+class FineEnsemble(Item):
+    """Discs of one Hurst exponent on several grids."""
 
-    hurst: real(above=0, high=1, decimals=4) = meaning("Hurst exponent")
-    grids: several(NestedGrid, 2, 12, once="elements") = meaning("grids, from coarse to fine")
+    hurst: Annotated[real(above=0, high=1), AfterValidator(_four_decimals)]
+    grids: several(FineGrid, 2, 12, "elements")
+
+    @model_validator(mode="after")
+    def _check(self):
+        for grid in self.grids:
+            if grid.elements % 2 == 0:
+                raise ValueError(f"grids: {grid.elements} elements; odd numbers are needed, whose grids share a centre")
+        for coarse, fine in pairwise(self.grids):
+            if fine.until_x > coarse.until_x:
+                places = f"{fine.until_x:g} on the grid of {fine.elements}, {coarse.until_x:g} on the next coarser one"
+                raise ValueError(f"grids: until_x is {places}; it must not rise")
+        if self.grids[-1].surfaces < 20:
+            raise ValueError(f"grids: {self.grids[-1].surfaces} surfaces on the finest grid; at least 20 are needed")
+        return self
 
 
-class NestedGrids(Section):
+class FineGrids(Section):
     """The same discs on several grids, for β at small X and its limit on finer grids (`make fine-grids`)."""
 
-    elements_min: whole(1, 1_000_000) = meaning(
-        "median of the elements in contact from which a curve is used on a grid"
-    )
-    tolerance: real(1e-6, 0.1) = meaning("tolerance of the curves")
-    ensembles: several(NestedEnsemble, 1, 20, once="hurst") = meaning("discs, for every Hurst exponent")
+    elements_min: whole(1, 1_000_000)
+    ensembles: several(FineEnsemble, 0, 20, "hurst")
 
 
 class Settings(Section):
     """Settings of the viscorough workflow."""
 
-    seed: whole(0, 2**64 - 1) = meaning("root seed of every random surface")
+    seed: whole(0, 2**64 - 1)
+    hurst: HURST_EXPONENTS
     discs: Discs
     surface: Surface
-    variants: Variants
-    indentation: Indentation
+    curves: Curves
     lines: Lines
-    ensemble: Ensemble
     scaling: Scaling
-    interface: Interface
-    periodic: Periodic
+    beyond: Beyond
     validation: Validation
-    direct: Direct
-    media: Media
-    measured: several(ScanGroup, 0, 20, once="name") = meaning("groups of scans that are read and prepared alike")
-    reduction: Reduction
+    kinetics: Kinetics
+    measured: several(ScanGroup, 0, 20, "name")
     methods: Methods
-    stability: Stability
-    nested_grids: NestedGrids
+    fine_grids: FineGrids
 
     @model_validator(mode="after")
-    def _agree(self) -> Any:
-        """Raise an error for the first contradiction between settings that are valid separately."""
-        for paths, complaint in contradictions(self):
-            raise PydanticCustomError("contradiction", "{text}", {"text": complaint, "paths": paths})
+    def _check(self) -> Any:
+        width, per_decade = self.scaling.slope_half_width, self.curves.per_decade
+        if width * per_decade < 1 - 1e-9:
+            raise ValueError(
+                f"scaling.slope_half_width: {width:g} decades hold no further abscissa; at least 1/curves.per_decade, "
+                f"{1 / per_decade:.4g}, is needed"
+            )
+        across, periodic = self.discs.elements, self.beyond.periodic
+        coarsest = min(across, self.lines.points, *self.discs.coarse.elements)
+        variants = [(f"discs.variants, {v.name}", v.roll_off_wavelength, across) for v in self.discs.variants.surfaces]
+        for name, wavelength, elements in (
+            ("surface.roll_off_wavelength", self.surface.roll_off_wavelength, coarsest),
+            ("discs.roll_off.wavelength", self.discs.roll_off.wavelength, across),
+            ("beyond.periodic.roll_off.wavelength", periodic.roll_off.wavelength, periodic.points),
+            *variants,
+        ):
+            if wavelength is not None and wavelength * elements < 4:
+                raise ValueError(
+                    f"{name}: {wavelength:g} is too short; at least {4 / elements:.4g}, four elements of the coarsest "
+                    "grid, is needed"
+                )
         return self

@@ -4,14 +4,15 @@ import pytest
 
 from support.workflow import merged, read_settings
 from viscorough_study.run import cases
+from viscorough_study.run.settings import check_settings
 
 
 @pytest.fixture
 def settings():
-    return read_settings("config")
+    return check_settings(merged(read_settings("config"), read_settings("fine_grids")))
 
 
-def test_spawn_keys_do_not_depend_on_order(settings):
+def test_every_ensemble_has_a_spawn_key_of_its_own(settings):
     discs, lines = cases.disc_cases(settings), cases.line_cases(settings)
     all_cases = [*discs.values(), *lines.values()]
     keys = [ensemble["spawn_key"] for case in all_cases for ensemble in case["ensembles"]]
@@ -20,11 +21,6 @@ def test_spawn_keys_do_not_depend_on_order(settings):
     assert discs["h01000_roll_off"]["ensembles"][0]["spawn_key"][:2] == (2, 100000)
     assert discs["coarse"]["ensembles"][2]["spawn_key"] == (8, 100000, 129)
     assert discs["law"]["ensembles"][0]["spawn_key"] == (8, 1000000, 257)
-    settings["discs"]["hurst"].reverse()
-    settings["discs"]["combinations"].reverse()
-    for name, case in cases.disc_cases(settings).items():
-        known = {ensemble["name"]: ensemble for ensemble in discs[name]["ensembles"]}
-        assert {ensemble["name"]: ensemble for ensemble in case["ensembles"]} == known
 
 
 def test_every_case_is_in_one_pool(settings):
@@ -48,7 +44,8 @@ def test_curves_of_a_pool_are_in_the_folder_of_their_kind(settings):
 
 def test_batches_of_several_ensembles_hold_each_realization_once(settings):
     """Batches do not end where ensembles end. The test lists [ensemble, number] of all batches, in order."""
-    settings["discs"] |= {"hurst": [0.1, 0.9], "single_batch": 7, "coarse": {"elements": [33, 65], "realizations": 9}}
+    settings["hurst"] = [0.1, 0.9]
+    settings["discs"] |= {"single_batch": 7, "coarse": {"elements": [33, 65], "realizations": 9}}
     case = cases.disc_cases(settings)["coarse"]
     members = [
         (*ensemble["spawn_key"], number)
@@ -59,8 +56,8 @@ def test_batches_of_several_ensembles_hold_each_realization_once(settings):
     grids = [(100000, 33), (100000, 65), (900000, 33), (900000, 65)]
     assert members == [(8, *grid, number) for grid in grids for number in range(9)]
     assert cases.batch_ensembles(case, "0007-0013")[1]["surface"]["hurst"] == 0.1
-    assert case["indentation"]["until_x"] == settings["discs"]["short_until_x"] != settings["indentation"]["until_x"]
-    assert case["indentation"]["tolerance"] == settings["discs"]["tolerance"] != settings["indentation"]["tolerance"]
+    curves = settings["curves"]
+    assert case["indentation"]["until_x"] == curves["short_until_x"] != curves["until_x"]
 
 
 def test_batch_has_the_same_realizations_of_all_combinations(settings):
@@ -80,13 +77,13 @@ def test_discs_of_the_second_reading_are_cut_from_a_square_of_their_own_period(s
 
 
 def test_tenth_combination_is_a_separate_case(settings):
-    """The batches of the nine combinations stay as they are, in whatever order the settings name them."""
+    """The batches of the nine combinations stay as they are."""
     nine = cases.disc_cases(settings)
     combinations = settings["discs"]["combinations"]
-    combinations.insert(4, combinations[0] | {"number": 10})
+    combinations.append(combinations[0] | {"number": 10})
     ten = cases.disc_cases(settings)
     assert {name: ten[name] for name in nine} == nine
-    assert set(ten) - set(nine) == {f"{cases.hurst_id(hurst)}_10" for hurst in settings["discs"]["hurst"]}
+    assert set(ten) - set(nine) == {f"{cases.hurst_id(hurst)}_10" for hurst in settings["hurst"]}
     assert [ensemble["name"] for ensemble in ten["h01000_10"]["ensembles"]] == ["h01000_c10"]
 
 
@@ -97,7 +94,7 @@ def test_memory_of_every_job_is_below_two_gigabytes(settings, name):
     needed = [cases.disc_memory(case) for case in discs.values()] + [cases.line_memory(case) for case in lines.values()]
     needed += [cases.generation_memory(case["ensembles"]) for case in discs.values()]
     tables = {"discs": discs, "lines": lines, "measured": {}}
-    needed += [cases.pool_memory(tables, pool, settings["ensemble"]) for pool in cases.POOLS]
+    needed += [cases.pool_memory(tables, pool, settings["curves"]) for pool in cases.POOLS]
     assert min(needed) >= cases.BASE_MEMORY
     assert max(needed) < 2000
 
@@ -108,6 +105,14 @@ def test_nested_discs_have_all_coarser_grids_and_a_key_of_their_exponent_and_gri
     assert nested["h04000_01025"]["elements"] == [1025, 513, 257]
     assert nested["h04000_01025"]["spawn_key"] == (19, 400000, 1025)
     assert len({case["spawn_key"] for case in nested.values()}) == len(nested) == 5 * 5
+
+
+def test_lines_have_the_exponents_of_discs_and_the_multiples_of_a_step(settings):
+    settings = merged(settings, {"hurst": [0.33, 0.6], "lines": {"hurst_step": 0.3}})
+    names = {"h00000", "h03000", "h03300", "h06000", "h09000"}
+    assert set(cases.line_cases(settings)) == names
+    settings["lines"]["hurst_step"] = None
+    assert set(cases.line_cases(settings)) == {"h03300", "h06000"}
 
 
 def test_jobs_of_nested_discs_cover_all_numbers_once(settings):

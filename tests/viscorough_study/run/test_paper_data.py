@@ -16,11 +16,11 @@ def test_settings_of_the_paper_agree_with_its_numbers():
     default, paper = (yaml.safe_load((ROOT / f"config/{name}.yaml").read_text()) for name in ("config", "paper"))
     numbers = {name: entry["value"] for name, entry in NUMBERS["boundary_elements"].items()}
     assert default["discs"]["elements"] == numbers["elements_across"]
-    assert default["discs"]["hurst"] == numbers["hurst_exponents"]
+    assert default["hurst"] == numbers["hurst_exponents"]
     assert len(default["discs"]["combinations"]) == numbers["combinations_per_hurst"]
     assert paper["discs"]["realizations"] >= numbers["realizations_min"]
     assert paper["lines"]["points"] == NUMBERS["reduction"]["points"]["value"]
-    assert len(paper["lines"]["hurst"]) == NUMBERS["reduction"]["hurst_count"]["value"]
+    assert 1 + round(1 / paper["lines"]["hurst_step"]) == NUMBERS["reduction"]["hurst_count"]["value"]
 
 
 def test_records_of_a_table_have_numbers_and_texts(tmp_path):

@@ -109,6 +109,7 @@ PAGE_TEXTS = [
     *sorted((WORKFLOW / "report").rglob("*.rst")),
     PROJECT / "resources/published/fine_exponents.csv",
     PROJECT / "resources/published/other_solvers.csv",
+    PROJECT / "resources/published/second_solver.csv",
     *(PROJECT / f"docs/results/{figure}.png" for figure in ("local_exponent", *BEYOND_FIGURES)),
     PROJECT / "docs/rules.png",
 ]

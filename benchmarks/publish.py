@@ -45,7 +45,7 @@ PUBLISHED = {
         "speed",
         "methods other_solvers one_surface mean_accuracy sufficient_models",
     ),
-    "stability": _made("failures", "failure_map", "campaign.json"),
+    "stability": _made("failures", "failures", "campaign.json"),
     "fine-grids": _made("local_exponent"),
     "large": _made(tables="large"),
     "bench": ["benchmarks.json"],

@@ -122,7 +122,7 @@ OTHER_SOLVERS = pd.read_csv(ROOT / "resources/published/other_solvers.csv").to_d
 FINE_GRIDS = judged_rows(ROOT)
 FROM_TABLES = {  # arguments of the figures that are drawn from tables alone
     "direct": (published("direct"),),
-    "failures": (published("failure_map"),),
+    "failures": (published("failures"),),
     "fig4_exponent": (published("scaling"), SHOWN, (0.4, 1.0), FINE_GRIDS),
     "histories": (histories_table(),),
     "interface": (published("interface"), interface_curves(), published("literature"), published("periodic")),

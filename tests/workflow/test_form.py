@@ -5,7 +5,7 @@ import tomllib
 
 import yaml
 
-from support.workflow import ROOT, RULES, TEST, copy_project, jobs, plan, snakemake
+from support.workflow import ROOT, RULES, TABLES, TEST, copy_project, jobs, plan, snakemake
 
 
 def test_slurm_profile_gives_timed_jobs_a_node(tmp_path, finished_once):
@@ -21,8 +21,14 @@ def test_slurm_profile_gives_timed_jobs_a_node(tmp_path, finished_once):
     assert plan(folder, *TEST, "--profile", "local", "--", "all") == jobs((finished_once / "run.log").read_text())
 
 
-def test_rules_scripts_logs_and_benchmarks_share_their_names():
-    """Figures share one script. A rule that is derived from another one has its log and its benchmark."""
+def test_rules_scripts_tables_logs_and_benchmarks_share_their_names():
+    """A rule is named by a verb and its table, or by the beginning that its tables have in common.
+
+    Figures share one script. A rule that is derived from another one has its log and its benchmark.
+    """
+    for table, name in TABLES.items():
+        noun = name.partition("_")[2]
+        assert table == noun or table.startswith(f"{noun}_"), name
     scripts = {}
     for name, text in RULES.items():
         if '"results/logs/' in text:

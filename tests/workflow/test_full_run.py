@@ -148,7 +148,7 @@ def test_failed_validation_stops_the_workflow(finished, tmp_path):
     copy_kernels(finished, tmp_path)
     strict = tmp_path / "strict.yaml"
     strict.write_text("validation: {limits: {area: 1.0e-4}}\n")
-    text = snakemake(finished, *TEST, strict, "--directory", tmp_path, "--", "require_accuracy", fails=True)
+    text = snakemake(finished, *TEST, strict, "--directory", tmp_path, "--", "require_validation", fails=True)
     assert "validation failed, see results/tables/validation.csv: sphere area: error" in text
     assert "cone area" in text
     table = read_table(tmp_path / "results/tables/validation.csv")

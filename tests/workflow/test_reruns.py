@@ -23,10 +23,10 @@ LAST = {"tabulate_rule_costs", "make_page"}  # these rules run again after any c
 BOUNDARY_ELEMENTS = {
     "indent_surfaces",
     "compare_direct",
-    "compare_exact",
+    "tabulate_validation",
     "measure_methods",
 }
-BOUNDARY_ELEMENTS |= {"map_failures", "measure_surfaces"}
+BOUNDARY_ELEMENTS |= {"map_failures", "measure_one_surface"}
 
 
 @pytest.fixture(scope="module")
@@ -57,15 +57,15 @@ def add_line(path, line):
 
 FEW_STEPS = {"methods": {"levels": 3, "stress": {"across": 11}}}
 FEW_STEPS |= {"validation": {"elements": [17, 31], "direct": {"elements": 31}}}
-OF_FEW_STEPS = {"measure_methods", "compare_exact", "map_failures", "compare_direct"}
-FITS = {"match_lambda", "compare_zeta_laws", "judge_claims"}
+OF_FEW_STEPS = {"measure_methods", "tabulate_validation", "map_failures", "compare_direct"}
+FITS = {"match_mdr", "compare_zeta_laws", "judge_claims"}
 
 
 @pytest.mark.parametrize(
     ("changed", "directly"),
     [
         (FEW_STEPS, OF_FEW_STEPS),
-        ({"scaling": {"stiffness_max": 0.25}}, FITS | {"fit_power_laws", "fit_local_slope"}),
+        ({"scaling": {"stiffness_max": 0.25}}, FITS | {"fit_scaling", "fit_local_slope"}),
         ({"curves": {"per_decade": 25}}, {"aggregate_curves"}),
         ({"surface": {"period": 1.5}}, {"generate_discs", "generate_examples"}),
     ],
@@ -91,7 +91,7 @@ def test_further_exponent_reruns_only_its_dependents(finished_once, tmp_path):
     assert cases == {"h06000", "h06000_longer_period", "h06000_roll_off"}
     planned = jobs(text)
     assert (planned["indent_surfaces"], planned["reduce_lines"], planned["aggregate_curves"]) == (5, 2, 3)
-    assert "compare_exact" not in planned
+    assert "tabulate_validation" not in planned
 
 
 KNOWN = read_settings("test")["discs"]["combinations"]
@@ -154,7 +154,7 @@ def test_comments_rerun_nothing(editable):
     ("files", "directly"),
     [
         (["src/viscorough/contact/halfspace/column_fft.py"], BOUNDARY_ELEMENTS | {"generate_discs"}),  # temporary files
-        (["workflow/scripts/require_accuracy.py"], {"require_accuracy"}),
+        (["workflow/scripts/require_validation.py"], {"require_validation"}),
         (
             [f"src/viscorough_study/{module}.py" for module in ("comparisons/direct_integration", "figures/exponent")],
             {"compare_direct", "plot_exponent"},

@@ -16,7 +16,7 @@ def test_large_scales_have_a_plan(unmade, name, indent_surfaces, reduce_lines):
     assert planned.pop("generate_discs") == indent_surfaces
     assert planned.pop("aggregate_curves") == 3
     assert set(planned.values()) == {1}
-    assert {"require_accuracy", "fit_power_laws", "judge_claims", "make_page"} < set(planned)
+    assert {"require_validation", "fit_scaling", "judge_claims", "make_page"} < set(planned)
     assert 2 * indent_surfaces + reduce_lines + sum(planned.values()) <= (90 if name == "config" else 300)
 
 
@@ -33,7 +33,7 @@ def test_figure_plans_only_the_jobs_it_needs(unmade):
 def test_fine_grids_are_a_target_of_their_own(finished_once, tmp_path):
     copy_kernels(finished_once, copy_project(tmp_path))
     finished = snakemake(tmp_path, *TEST, "--", "fine_grids")
-    assert jobs(finished) == {"indent_nested": 4, "fit_fine_grids": 1, "plot_local_exponent": 1}
+    assert jobs(finished) == {"indent_nested": 4, "fit_fine_exponents": 1, "plot_local_exponent": 1}
 
 
 def test_other_targets_are_made_together_with_the_default(finished):
@@ -48,7 +48,7 @@ def test_beyond_and_sensitivities_add_to_the_default_run_and_leave_its_page(fini
     assert done.pop("aggregate_curves") == 2
     assert set(done.values()) == {1}
     assert {"make_beyond_page", "tabulate_sensitivities", "tabulate_calibration"} < set(done)
-    assert "fit_power_laws" not in done
+    assert "fit_scaling" not in done
     table = read_table(finished / "results/tables/sensitivities.csv")
     assert set(table["surfaces"]) == {"base", "longer_period", "corners"}
     assert set(table["reading"].dropna()) == {"A", "B"}

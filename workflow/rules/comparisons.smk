@@ -2,36 +2,36 @@
 # and measured surfaces.
 
 
-rule compare_exact:
+rule tabulate_validation:
     output:
         csv="results/tables/validation.csv",
     log:
-        "results/logs/compare_exact.log",
+        "results/logs/tabulate_validation.log",
     benchmark:
-        "results/benchmarks/compare_exact.tsv"
+        "results/benchmarks/tabulate_validation.tsv"
     conda:
         "../envs/viscorough.yaml"
     resources:
         mem_mb=4000,
     params:
         **without("validation", "direct"),
-        source=digest("compare_exact"),
+        source=digest("tabulate_validation"),
     message:
         "Comparison with exact solutions"
     script:
-        "../scripts/compare_exact.py"
+        "../scripts/tabulate_validation.py"
 
 
-rule require_accuracy:
+rule require_validation:
     """End the run unless all comparisons with exact solutions have passed."""
     input:
         table="results/tables/validation.csv",
     output:
         passed="results/tables/validation_passed.txt",
     log:
-        "results/logs/require_accuracy.log",
+        "results/logs/require_validation.log",
     benchmark:
-        "results/benchmarks/require_accuracy.tsv"
+        "results/benchmarks/require_validation.tsv"
     localrule: True
     conda:
         "../envs/viscorough.yaml"
@@ -39,11 +39,11 @@ rule require_accuracy:
         mem_mb=500,
     params:
         order_margin=config["validation"]["order_margin"],
-        source=digest("require_accuracy"),
+        source=digest("require_validation"),
     message:
         "Verdict on the comparison with exact solutions"
     script:
-        "../scripts/require_accuracy.py"
+        "../scripts/require_validation.py"
 
 
 rule compare_direct:
@@ -71,7 +71,7 @@ rule compare_direct:
 
 rule map_failures:
     output:
-        csv="results/tables/failure_map.csv",
+        csv="results/tables/failures.csv",
     log:
         "results/logs/map_failures.log",
     benchmark:
@@ -95,13 +95,13 @@ rule map_failures:
 PRESSED = ("group", "file", "digest", "spacing", "unit", "preparation", "forces", "young_modulus", "poisson_ratio")
 
 
-rule press_measured:
+rule solve_measured_contacts:
     output:
         csv="results/tables/measured_contacts.csv",
     log:
-        "results/logs/press_measured.log",
+        "results/logs/solve_measured_contacts.log",
     benchmark:
-        "results/benchmarks/press_measured.tsv"
+        "results/benchmarks/solve_measured_contacts.tsv"
     localrule: True
     conda:
         "../envs/viscorough.yaml"
@@ -109,11 +109,11 @@ rule press_measured:
         mem_mb=4000,
     params:
         scans=[{"name": name} | {key: scan[key] for key in PRESSED} for name, scan in MEASURED.items()],
-        source=digest("press_measured"),
+        source=digest("solve_measured_contacts"),
     message:
         "Contacts of measured surfaces"
     script:
-        "../scripts/press_measured.py"
+        "../scripts/solve_measured_contacts.py"
 
 
 rule evaluate_measured:

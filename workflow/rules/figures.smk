@@ -231,7 +231,7 @@ use rule plot_surfaces as plot_speed with:
 
 use rule plot_surfaces as plot_failures with:
     input:
-        table="results/tables/failure_map.csv",
+        table="results/tables/failures.csv",
     output:
         path=report(
             "results/figures/failures.{format}",

@@ -2,16 +2,16 @@
 # the exponents on fine grids.
 
 
-rule fit_power_laws:
+rule fit_scaling:
     input:
         discs="results/ensembles/discs.nc",
         lines="results/ensembles/lines.nc",
     output:
         csv="results/tables/scaling.csv",
     log:
-        "results/logs/fit_power_laws.log",
+        "results/logs/fit_scaling.log",
     benchmark:
-        "results/benchmarks/fit_power_laws.tsv"
+        "results/benchmarks/fit_scaling.tsv"
     localrule: True
     conda:
         "../envs/viscorough.yaml"
@@ -20,23 +20,23 @@ rule fit_power_laws:
     params:
         **config["scaling"],
         seed=config["seed"],
-        source=digest("fit_power_laws"),
+        source=digest("fit_scaling"),
     message:
         "Power laws in region (b): exponent beta and prefactor zeta"
     script:
-        "../scripts/fit_power_laws.py"
+        "../scripts/fit_scaling.py"
 
 
-rule match_lambda:
+rule match_mdr:
     input:
         discs="results/ensembles/discs.nc",
         lines="results/ensembles/lines.nc",
     output:
         csv=["results/tables/mdr_lambda.csv", "results/tables/mdr_summary.csv", "results/tables/mdr_exponents.csv"],
     log:
-        "results/logs/match_lambda.log",
+        "results/logs/match_mdr.log",
     benchmark:
-        "results/benchmarks/match_lambda.tsv"
+        "results/benchmarks/match_mdr.tsv"
     localrule: True
     conda:
         "../envs/viscorough.yaml"
@@ -46,11 +46,11 @@ rule match_lambda:
         fit=config["scaling"],
         conventions={name: SHOWN[name] for name in ("rms_convention", "average")},
         seed=config["seed"],
-        source=digest("match_lambda"),
+        source=digest("match_mdr"),
     message:
         "Lines that represent discs: lambda, and its residual error"
     script:
-        "../scripts/match_lambda.py"
+        "../scripts/match_mdr.py"
 
 
 rule fit_local_slope:
@@ -107,15 +107,15 @@ rule compare_zeta_laws:
         "../scripts/compare_zeta_laws.py"
 
 
-rule fit_fine_grids:
+rule fit_fine_exponents:
     input:
         curves=lambda wildcards: fine_curves(),
     output:
         csv="results/tables/fine_exponents.csv",
     log:
-        "results/logs/fit_fine_grids.log",
+        "results/logs/fit_fine_exponents.log",
     benchmark:
-        "results/benchmarks/fit_fine_grids.tsv"
+        "results/benchmarks/fit_fine_exponents.tsv"
     localrule: True
     conda:
         "../envs/viscorough.yaml"
@@ -124,8 +124,8 @@ rule fit_fine_grids:
     params:
         elements_min=config["fine_grids"]["elements_min"],
         seed=config["seed"],
-        source=digest("fit_fine_grids"),
+        source=digest("fit_fine_exponents"),
     message:
         "Exponents of small X on fine grids, and their limits"
     script:
-        "../scripts/fit_fine_grids.py"
+        "../scripts/fit_fine_exponents.py"

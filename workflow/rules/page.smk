@@ -2,9 +2,9 @@
 # `all`. They use results only.
 
 # The rules of measured surfaces; their costs are left out if the settings name no surface.
-NEED_SCANS = [rules.press_measured.rule, rules.evaluate_measured.rule, rules.plot_measured.rule]
+NEED_SCANS = [rules.solve_measured_contacts.rule, rules.evaluate_measured.rule, rules.plot_measured.rule]
 # The rules of the target `fine_grids`, which is not part of `all`.
-FINE_GRIDS = [rules.indent_nested.rule, rules.fit_fine_grids.rule, rules.plot_local_exponent.rule]
+FINE_GRIDS = [rules.indent_nested.rule, rules.fit_fine_exponents.rule, rules.plot_local_exponent.rule]
 
 
 rule tables:
@@ -26,7 +26,7 @@ rule tables:
                 "one_surface",
                 "mean_accuracy",
                 "sufficient_models",
-                "failure_map",
+                "failures",
             ],
         ),
 
@@ -51,7 +51,7 @@ rule tabulate_rule_costs:
         rules.figures.input,
         rules.tables.input,
         rules.measured.input,
-        rules.require_accuracy.output,
+        rules.require_validation.output,
     output:
         csv="results/tables/rule_costs.csv",
     log:
@@ -89,17 +89,17 @@ PAGE_FIGURES = [
 # {table whose numbers the page states: rule that makes the table}
 PAGE_TABLES = {
     "claims": "judge_claims",
-    "scaling": "fit_power_laws",
+    "scaling": "fit_scaling",
     "methods": "measure_methods",
-    "one_surface": "measure_surfaces",
-    "failure_map": "map_failures",
+    "one_surface": "measure_one_surface",
+    "failures": "map_failures",
     "rule_costs": "tabulate_rule_costs",
-    "sufficient_models": "choose_models",
+    "sufficient_models": "choose_sufficient_models",
 }
 if MEASURED:
     PAGE_FIGURES.append("measured")
     PAGE_TABLES["measured_scans"] = "evaluate_measured"
-    PAGE_TABLES["measured_contacts"] = "press_measured"
+    PAGE_TABLES["measured_contacts"] = "solve_measured_contacts"
     PAGE_TABLES["measured_fits"] = "evaluate_measured"
 # Figures of `beyond`, of which the page shows published pictures.
 BEYOND_FIGURES = ["interface", "reduction", "media", "histories"]

@@ -26,13 +26,13 @@ rule measure_methods:
         "../scripts/measure_methods.py"
 
 
-rule measure_surfaces:
+rule measure_one_surface:
     output:
         csv="results/tables/one_surface.csv",
     log:
-        "results/logs/measure_surfaces.log",
+        "results/logs/measure_one_surface.log",
     benchmark:
-        "results/benchmarks/measure_surfaces.tsv"
+        "results/benchmarks/measure_one_surface.tsv"
     priority: 3
     conda:
         "../envs/viscorough.yaml"
@@ -43,14 +43,14 @@ rule measure_surfaces:
         **config["methods"]["one_surface"],
         hurst=[0.4, 0.8],
         seed=config["seed"],
-        source=digest("measure_surfaces"),
+        source=digest("measure_one_surface"),
     message:
         "Cost and error of every model of one surface"
     script:
-        "../scripts/measure_surfaces.py"
+        "../scripts/measure_one_surface.py"
 
 
-rule compare_means:
+rule compare_mean_accuracy:
     input:
         discs="results/ensembles/discs.nc",
         coarse="results/ensembles/coarse.nc",
@@ -61,9 +61,9 @@ rule compare_means:
     output:
         csv="results/tables/mean_accuracy.csv",
     log:
-        "results/logs/compare_means.log",
+        "results/logs/compare_mean_accuracy.log",
     benchmark:
-        "results/benchmarks/compare_means.tsv"
+        "results/benchmarks/compare_mean_accuracy.tsv"
     localrule: True
     conda:
         "../envs/viscorough.yaml"
@@ -71,31 +71,31 @@ rule compare_means:
         mem_mb=2000,
     params:
         conventions=SHOWN,
-        source=digest("compare_means"),
+        source=digest("compare_mean_accuracy"),
     message:
         "Cost and error of every model of the mean of many surfaces"
     script:
-        "../scripts/compare_means.py"
+        "../scripts/compare_mean_accuracy.py"
 
 
-rule choose_models:
+rule choose_sufficient_models:
     input:
         one_surface="results/tables/one_surface.csv",
         mean_accuracy="results/tables/mean_accuracy.csv",
     output:
         csv="results/tables/sufficient_models.csv",
     log:
-        "results/logs/choose_models.log",
+        "results/logs/choose_sufficient_models.log",
     benchmark:
-        "results/benchmarks/choose_models.tsv"
+        "results/benchmarks/choose_sufficient_models.tsv"
     localrule: True
     conda:
         "../envs/viscorough.yaml"
     resources:
         mem_mb=1000,
     params:
-        source=digest("choose_models"),
+        source=digest("choose_sufficient_models"),
     message:
         "The cheapest sufficient model for every question"
     script:
-        "../scripts/choose_models.py"
+        "../scripts/choose_sufficient_models.py"

@@ -93,13 +93,13 @@ def failures(results):
     worst_model : largest finite error of an approximate model that warned or was used outside its documented range
     methods : {method: {verdict: number of stress tests}}
     """
-    table = results.tables["failure_map"]
+    table = results.tables["failures"]
     outside = table[table["method"].isin(MODELS) & table["verdict"].isin(["stated", "warned"])]
     return {
         # each method has one row per stress test
-        "cases": results.count("failure_map", "method", table["method"].iloc[0]),
-        **{name: results.count("failure_map", "verdict", name) for name in ("unnoticed", "warned", "stated")},
-        "worst_model": results.extremes(outside[np.isfinite(outside["error"])], "failure_map", "error")[1],
+        "cases": results.count("failures", "method", table["method"].iloc[0]),
+        **{name: results.count("failures", "verdict", name) for name in ("unnoticed", "warned", "stated")},
+        "worst_model": results.extremes(outside[np.isfinite(outside["error"])], "failures", "error")[1],
         "methods": {name: Counter(rows["verdict"]) for name, rows in table.groupby("method", sort=False)},
     }
 

@@ -53,7 +53,7 @@ COLUMNS = {
 LABELS = ["hurst", "quantity", "model", "across", "parameter", "value"]
 
 
-def measure_surfaces(*, hurst, elements, surfaces, seed):
+def measure_one_surface(*, hurst, elements, surfaces, seed):
     """Measure computing time and error of every model (see the module) on several surfaces for each Hurst exponent.
 
     Returns a pandas.DataFrame with the columns of `COLUMNS`, averaged over the surfaces.

@@ -96,7 +96,7 @@ def test_lines_in_short_group_own_claims_by_their_verdicts():
 def test_worst_error_of_the_models_is_a_stated_error():
     rows = [("MDR", "stated", 0.3), ("MDR", "holds", 0.4), ("power law", "warned", 0.2), ("path", "warned", 0.5)]
     table = pd.DataFrame(rows, columns=["method", "verdict", "error"]).assign(group="a", case="b", reason="c")
-    content = failures(Results({"failure_map": table}, {}))
+    content = failures(Results({"failures": table}, {}))
     assert content["worst_model"].value == 0.3
     assert (content["cases"].value, content["warned"].value, content["unnoticed"].value) == (2, 2, 0)
     assert content["methods"]["MDR"] == {"stated": 1, "holds": 1}

@@ -66,7 +66,7 @@ def test_docutils_settings_of_the_user_change_no_caption(tmp_path, monkeypatch):
 
 
 def test_numbers_state_the_rule_of_their_table_and_its_script():
-    results = Results({"scaling": pd.DataFrame({"beta": [0.4]})}, {}, {"scaling": "fit_power_laws"})
+    results = Results({"scaling": pd.DataFrame({"beta": [0.4]})}, {}, {"scaling": "fit_scaling"})
     place = "results/tables/scaling.csv, line 3, column beta"
-    origin = "rule fit_power_laws, workflow/scripts/fit_power_laws.py"
+    origin = "rule fit_scaling, workflow/scripts/fit_scaling.py"
     assert results.number("scaling", 0, "beta").attributes["title"] == f"{place}; {origin}"

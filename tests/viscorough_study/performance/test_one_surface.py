@@ -10,7 +10,7 @@ from viscorough_study.performance import one_surface
 
 @pytest.fixture(scope="module")
 def table():
-    return one_surface.measure_surfaces(hurst=[0.4, 0.8], elements=65, surfaces=2, seed=1)
+    return one_surface.measure_one_surface(hurst=[0.4, 0.8], elements=65, surfaces=2, seed=1)
 
 
 def test_every_model_is_measured_on_every_surface(table):
@@ -36,7 +36,7 @@ def test_errors_vanish_on_the_full_map_and_grow_with_the_spacing(table):
 @pytest.mark.parametrize("hurst", [0.05, 1.0])
 def test_law_has_no_error_outside_its_calibration(hurst):
     """At H = 0.05 the law has no constants; at H = 1 it is not confirmed at the smallest X of the comparison."""
-    table = one_surface.measure_surfaces(hurst=[hurst], elements=65, surfaces=1, seed=1)
+    table = one_surface.measure_one_surface(hurst=[hurst], elements=65, surfaces=1, seed=1)
     assert set(table[table["error"].isna()]["model"]) == {"law"}
 
 

@@ -2,7 +2,7 @@
 
 A module is tested by the test file of its name in the corresponding folder of tests, or by all files of that folder if
 there is none. The imports of a module decide which jobs run again, so every change of a module also runs the test of
-the source digests. Changes of the workflow and of pages run the quick tests of their form.
+the source digests. Changes of the workflow and of pages run the quick tests of these.
 """
 
 import subprocess
@@ -12,8 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 BY_FOLDER = {
     "src": ["tests/viscorough_study/run/test_source_digest.py"],
-    "workflow": ["tests/workflow/test_form.py", "tests/workflow/test_run_with_progress.py"],
-    "peers": ["tests/benchmarks/test_other_solvers.py"],
+    "workflow": ["tests/workflow/test_run_with_progress.py"],
     "config": ["tests/viscorough_study/run/test_settings.py"],
     "resources": ["tests/viscorough_study/verdicts/test_claims.py", "tests/docs/test_quoted_numbers.py"],
     "docs": ["tests/docs/test_pages.py", "tests/docs/test_quoted_numbers.py"],
@@ -32,11 +31,10 @@ def relevant_tests(name, root=ROOT):
     path = Path(name)
     if path.name.startswith("test_"):
         return [name]
-    if path.suffix != ".py" or path.parts[0] not in ("src", "benchmarks", "calibration"):
+    if path.suffix != ".py" or path.parts[0] != "src":
         folder = {"Snakefile": "workflow", "README.md": "docs"}.get(name, path.parts[0])
         return [test for test in BY_FOLDER.get(folder, []) if (root / test).is_file()]
-    parts = path.parts[1:] if path.parts[0] == "src" else path.parts
-    mirror = Path("tests", *parts[:-1], f"test_{path.name}")
+    mirror = Path("tests", *path.parts[1:-1], f"test_{path.name}")
     if (root / mirror).is_file():
         return [str(mirror)]
     return [str(test.relative_to(root)) for test in sorted((root / mirror.parent).glob("test_*.py"))]

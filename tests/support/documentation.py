@@ -11,7 +11,6 @@ PAGES = [
     *sorted((ROOT / "docs").rglob("*.md")),
 ]
 _FENCE = re.compile(r"^```(\S*)(?: [^\n]*)?\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-_NAMED = re.compile(r"^`(\w+/[\w./]+)`:\n\n```\S*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -30,18 +29,10 @@ def read(page):
 MAKEFILES = read(ROOT / "Makefile") + read(ROOT / "peers/targets.mk")
 
 
-def named_files(page):
-    """Return {path: text} of the blocks that show files of the project: a line with only the path precedes them."""
-    return dict(_NAMED.findall(read(page)))
-
-
 def blocks(page):
-    """Return the blocks of a page in order, without blocks that show files."""
-    files = set(named_files(page).values())
+    """Return the blocks of a page in order."""
     return [
-        Block(match[1], match[2], read(page)[: match.start()].count("\n") + 1)
-        for match in _FENCE.finditer(read(page))
-        if match[2] not in files
+        Block(match[1], match[2], read(page)[: match.start()].count("\n") + 1) for match in _FENCE.finditer(read(page))
     ]
 
 

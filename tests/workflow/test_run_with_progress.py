@@ -1,18 +1,14 @@
 """One line of progress from Snakemake's output; errors are shown, and the exit code is kept."""
 
 import io
-import re
 import signal
 import sys
 
-import pandas as pd
 import pytest
 import run_with_progress
-from run_with_progress import Progress, summary
 
 from support.study import ROOT
 from viscorough_study.run.stale_locks import REMOVED
-from viscorough_study.run.tables import write_table
 
 STARTED = """Building DAG of jobs...
 Provided cores: 2
@@ -57,31 +53,11 @@ def run(tmp_path, monkeypatch):
     return lambda script: run_with_progress.run([sys.executable, "-c", script])
 
 
-def test_progress_shows_the_job_the_number_of_jobs_and_their_share_of_time(monkeypatch):
-    monkeypatch.setattr("sys.stderr", Terminal())
-    progress = Progress(pd.Series({"indent": 10.0, "plot": 1.0}))
-    for line in STARTED.splitlines():
-        progress.read(line)
-    assert (progress.bar.desc, progress.bar.total) == ("0 of 41: Figure 1", 30 * 10 + 10 * 1 + 5.5)
-    for line in [*FINISHED.splitlines(), "Job 5: Curves of lines"]:
-        progress.read(line)
-    assert (progress.bar.desc, progress.bar.n) == ("1 of 41: Curves of lines", 10)
-
-
 def test_without_a_terminal_messages_and_one_line_are_shown(run, tmp_path, capfd):
     printed = f"{REMOVED}\n{STARTED}{FINISHED}"
     assert run(f"print({printed!r})") == 0
     assert capfd.readouterr() == ("", f"{REMOVED}\n41 steps; progress in results/run.log\n")
     assert (tmp_path / "results/run.log").read_text() == printed + "\n"
-
-
-def test_progress_on_a_terminal_is_one_redrawn_line(run, monkeypatch):
-    monkeypatch.setattr("sys.stderr", shown := Terminal())
-    assert run(f"print({STARTED + FINISHED + 'Job 5: Curves of lines'!r})") == 0
-    *lines, last = shown.getvalue().split("\r")
-    assert any(re.fullmatch(r"1 of 41: Curves of lines \|.*\| [\d:]+ left", line.strip()) for line in lines)
-    assert "\n" not in shown.getvalue()
-    assert last.strip() == ""
 
 
 def test_error_of_a_job_is_shown_with_its_log_and_exit_code(run, tmp_path, capfd):
@@ -110,29 +86,6 @@ def test_a_second_run_is_refused_and_keeps_the_output_of_the_first(run):
     assert run(script) == 1
     assert "another run writes it; wait until that run has ended, or stop it" in run_with_progress.OUTPUT.read_text()
     assert run_with_progress.OUTPUT.read_text().startswith("first\n")
-
-
-def test_summary_is_three_lines(tmp_path):
-    (tmp_path / "tables").mkdir()
-    rows = [
-        ("a", "", "holds", "own"),
-        ("a", "", "undecided", "own"),
-        ("b", "A", "holds", "own"),
-        ("b", "B", "not", "own"),
-        ("c", "", "holds", "own"),
-        ("d", "", "not", "quoted"),
-    ]
-    claims = pd.DataFrame(rows, columns=["claim", "reading", "verdict", "kind"]).assign(case="all H")
-    columns = {name: (name, None) for name in claims}
-    costs = pd.DataFrame({"share_s": [200.0, 40.0]})
-    write_table(costs, tmp_path / "tables/rule_costs.csv", columns={"share_s": ("time", "s")}, title="Costs")
-    for trial, added in ((0, ""), (1, "; trial scale, on which verdicts mean nothing")):
-        write_table(claims, tmp_path / "tables/claims.csv", columns=columns, title="Claims", trial=trial)
-        assert summary(tmp_path, ROOT / "resources/paper") == [
-            "3 claims of the paper: 1 holds, 1 holds in A, 1 undecided" + added,
-            "It took 4.0 minutes; the paper: several weeks",
-            f"Open {tmp_path}/index.html in a browser",
-        ]
 
 
 def test_interrupted_run_states_that_the_same_command_continues(run, capfd, monkeypatch):

@@ -28,8 +28,7 @@ _ROOM = 1000
 # Number of waves computed at a time in double precision.
 _BLOCK = 16384
 # The Fourier transform copies the heights of a line. The memory that must be available is therefore this multiple of
-# the memory for the heights. The second value is for numbers of points with large prime factors
-# (tests/viscorough/basics/test_memory.py).
+# the memory for the heights. The second value is for numbers of points with large prime factors.
 _COPIES, _MOST_COPIES = 2.6, 17
 
 

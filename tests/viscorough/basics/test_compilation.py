@@ -1,38 +1,15 @@
 """Compiled code is stored safely, and the functions of other packages are not affected."""
 
 import ast
-import fcntl
-import os
 import shutil
-import signal
 from pathlib import Path
 
-import numba
-import numpy as np
 import pytest
-from numba.core import event
 
 import viscorough
 from support.command_line import python
-from viscorough.basics import compilation
-from viscorough.basics.compilation import njit
-from viscorough.contact.grid import kernels
 
 PACKAGE = Path(viscorough.__file__).parent
-
-
-def test_compiled_functions_of_other_packages_are_stored_elsewhere():
-    def function(x):
-        return x + 1
-
-    ours, theirs = njit(function), numba.njit(function, cache=True)
-    assert ours.stats.cache_path.startswith(str(compilation._folder()))
-    assert not theirs.stats.cache_path.startswith(str(compilation._folder()))
-
-
-def test_functions_run_if_numba_is_disabled():
-    script = "from viscorough.basics.compilation import njit; assert njit(fastmath=True)(lambda x: x + 1)(1.0) == 2"
-    assert python("-c", script, NUMBA_DISABLE_JIT="1").stderr == ""
 
 
 SPHERE = """
@@ -90,75 +67,3 @@ def test_digest_covers_constants_of_compiled_functions():
                 source = PACKAGE.joinpath(*node.module.split(".")[1:]).with_suffix(".py")
                 names = used & {each.asname or each.name for each in node.names}
                 assert not names or "njit" in source.read_text(), f"{path}: {names}, {source}"
-
-
-@pytest.fixture
-def empty_cache(tmp_path, monkeypatch):
-    """Let functions that are decorated during the test be stored in an empty folder; return the folder."""
-    monkeypatch.setattr("numba.core.config.CACHE_DIR", str(tmp_path))
-    compilation._folder.cache_clear()
-    yield compilation._folder()
-    compilation._folder.cache_clear()
-
-
-class TryLock(event.Listener):
-    """Record, at each event, whether another process could now store code."""
-
-    def __init__(self, folder):
-        self._path, self.could_store = folder / "lock", []
-
-    def on_start(self, event):
-        pass
-
-    def on_end(self, event):
-        with self._path.open("w") as file:
-            try:
-                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
-                self.could_store.append(False)
-            else:
-                self.could_store.append(True)
-
-
-def test_one_process_at_a_time_stores_code(empty_cache):
-    """From the end of a compilation until numba has stored the code, other processes have to wait."""
-    function = njit(kernels.total.py_func)
-    compiled, stored = TryLock(empty_cache), TryLock(empty_cache)
-    with event.install_listener("numba:compile", compiled), event.install_listener("numba:compiler_lock", stored):
-        assert function(field=np.arange(3.0), places=np.arange(3)) == 3
-    assert list(empty_cache.glob("*/*.nbi"))
-    assert compiled.could_store[-1] is False
-    assert stored.could_store[-1] is True
-
-
-class Interrupt(event.Listener):
-    """Interrupt this process whenever numba starts to compile a function."""
-
-    def on_start(self, event):
-        os.kill(os.getpid(), signal.SIGINT)
-
-    def on_end(self, event):
-        pass
-
-
-@pytest.fixture
-def interrupts_raise():
-    """Let SIGINT raise KeyboardInterrupt, also in a background process, which ignores it by default."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, before)
-
-
-def test_interrupt_waits_for_the_compiler(interrupts_raise, empty_cache):
-    function = njit(lambda x: x + 1)
-    with pytest.raises(KeyboardInterrupt), event.install_listener("numba:compile", Interrupt()):
-        function(1.0)
-    assert len(function.signatures) == 1, "compiled to the end"
-    assert function(1.0) == 2
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
-
-
-def test_compilation_is_announced_on_terminals(tmp_path):
-    terminal = "import sys; sys.stderr.isatty = lambda: True" + SPHERE
-    for expected in ("viscorough: compiling once, which takes about 10 s\n", ""):
-        assert python("-c", terminal, NUMBA_CACHE_DIR=str(tmp_path)).stderr == expected

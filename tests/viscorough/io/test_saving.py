@@ -7,6 +7,7 @@ import viscorough
 from support.contract import refused
 from support.tables import read_table
 from viscorough.io import netcdf
+from viscorough.io.datasets import read_dataset
 
 DISC = viscorough.self_affine_disc(0.8, 17, rms=1e-6, diameter=1e-4, seed=1)
 CURVE = viscorough.indent(DISC)
@@ -35,3 +36,13 @@ def test_suffixes_may_be_in_any_case(tmp_path):
     viscorough.save(MOTION, tmp_path / "result.CSV")
     table, _ = read_table(tmp_path / "result.CSV")
     np.testing.assert_array_equal(table["depth"], MOTION.depth)
+
+
+@pytest.mark.parametrize("kind", RESULTS)
+def test_dataset_of_a_result_equals_its_file(tmp_path, kind):
+    viscorough.save(RESULTS[kind], tmp_path / "result.nc")
+    dataset, written = viscorough.to_dataset(RESULTS[kind]), read_dataset(tmp_path / "result.nc")
+    assert set(dataset.coords) == set(written.coords)
+    for name in dataset.attrs.keys() - {"history"}:
+        np.testing.assert_array_equal(dataset.attrs[name], written.attrs[name])
+    assert dataset.equals(written)

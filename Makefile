@@ -58,7 +58,7 @@ help:
 	@echo "make bench | large cost of curves and of large maps"
 	@echo "make law | law-errors               calibration of the law of the interface"
 	@echo "make test-slurm    the workflow through Slurm"
-	@echo "make publish       verdicts, figures and tables from results/ into docs/"
+	@echo "make publish       figures, claims and the table of verdicts from results/ into docs/"
 	@echo "make peers | lock  environments of other solvers; renew the lock files"
 	@echo "Variables: CORES=$(CORES), PYTHON=$(PYTHON); SETTINGS=mine.yaml for reproduce, report, speed, stability, fine-grids."
 

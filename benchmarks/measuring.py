@@ -6,7 +6,6 @@ import sys
 from pathlib import Path
 
 import click
-import numpy as np
 
 import viscorough
 from viscorough.io.atomic import atomic_write
@@ -24,12 +23,6 @@ LARGE_PAGES = {"GLIBC_TUNABLES": "glibc.malloc.hugetlb=1"}  # large pages, if th
 output_option = click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write.")
 
 
-def generators(seed, numbers):
-    """Yield (number, random generator) of numbered cases; each depends on the seed and its number only."""
-    for number in numbers:
-        yield number, np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(number,)))
-
-
 def run_timed(main, **variables):
     """Run a command with ENVIRONMENT and further variables, in a process that replaces this one if needed."""
     variables_needed = ENVIRONMENT | variables
@@ -38,16 +31,12 @@ def run_timed(main, **variables):
     main()
 
 
-def write_json(content, path):
-    """Write a mapping as a JSON file, atomically; make its folder if needed."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with atomic_write(path) as temporary:
-        temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
-
-
 def save(content, output):
-    """Write the content of a file of results, with machine and version."""
-    write_json({"machine": timing.machine(), "viscorough": viscorough.__version__, **content}, output)
+    """Write the content of a file of results as JSON, atomically, with machine and version."""
+    output.parent.mkdir(parents=True, exist_ok=True)
+    everything = {"machine": timing.machine(), "viscorough": viscorough.__version__, **content}
+    with atomic_write(output) as temporary:
+        temporary.write_text(json.dumps(everything, indent=1) + "\n", encoding="utf-8")
     click.echo(f"written to {output}")
 
 

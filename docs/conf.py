@@ -1,10 +1,7 @@
 """Configure how Sphinx builds the pages of this folder into build/docs (`make docs`), without network access."""
 
-import importlib
 import importlib.metadata
 import re
-import sys
-from pathlib import Path
 
 import click
 import numpy.typing
@@ -15,9 +12,6 @@ from sphinx.util.typing import stringify_annotation
 
 from viscorough.basics import types
 from viscorough.cli import cli
-
-# Pages contain the columns of the tables of these folders.
-sys.path += [str(Path(__file__).resolve().parents[1] / folder) for folder in ("benchmarks", "calibration")]
 
 project = "viscorough"
 release = importlib.metadata.version("viscorough")
@@ -71,20 +65,6 @@ class CommandHelp(Directive):
     def run(self):
         text = help_text(self.arguments[0])
         return [nodes.literal_block(text, text, language="none")]
-
-
-class TableColumns(Directive):
-    """Show the columns of a table with meaning and unit, from `COLUMNS` of a module or from the second argument."""
-
-    required_arguments, optional_arguments = 1, 1
-
-    def run(self):
-        module, name = [*self.arguments, "COLUMNS"][:2]
-        columns = getattr(importlib.import_module(module), name)
-        rows = [("column", "unit", "meaning"), *((name, unit or "", text) for name, (text, unit) in columns.items())]
-        head, *body = [nodes.row("", *(nodes.entry("", nodes.paragraph("", cell)) for cell in row)) for row in rows]
-        widths = [nodes.colspec(colwidth=width) for width in (20, 10, 70)]
-        return [nodes.table("", nodes.tgroup("", *widths, nodes.thead("", head), nodes.tbody("", *body), cols=3))]
 
 
 def _visit_math(writer, node):
@@ -143,7 +123,6 @@ def _lower_indices(_app, doctree):
 def setup(app):
     app.add_html_math_renderer("mathml", (_visit_math, None), (_visit_math, None))
     app.add_directive("command-help", CommandHelp)
-    app.add_directive("table-columns", TableColumns)
     app.connect("source-read", _link_to_pages)
     app.connect("doctree-read", _lower_indices)
     app.connect("autodoc-process-signature", _shorten_types)

@@ -35,11 +35,8 @@ def quoted():
     yield "README.md", f"Eq. 12 must be multiplied by {constant}"
     verdict = VALUE.loc[("beta", "B", "H = 0.6"), "verdict"]
     yield "README.md", f"larger square leave the exponent at H = 0.6 {verdict}"
-    minutes = pd.read_csv(ROOT / "docs/results/rule_costs.csv")["share_s"].sum() / 60
+    minutes = pd.read_csv(ROOT / "resources/published/default_costs.csv")["share_s"].sum() / 60
     yield "README.md", f"several weeks in the paper, {minutes:.0f} minutes here"
-    law = pd.read_csv(ROOT / "docs/results/law_errors.csv").query("across == 257 and x > 0.003")
-    errors = (100 * law[f"{name}_error"].abs().max() for name in ("velocity", "interface", "depth"))
-    yield "docs/verification.md", "{:.0f} % in *vt*/*h*, {:.0f} % in *g* and {:.0f} % in *u*/*h*".format(*errors)
 
 
 def test_sentence_on_fine_grids_is_the_same_everywhere():

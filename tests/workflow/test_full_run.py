@@ -1,15 +1,13 @@
 """Results of one full run of the small settings."""
 
-import json
 import re
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import xarray as xr
 
 from support.cf import violations
-from support.workflow import FIGURES, ROOT, TABLES, TEST, copy_kernels, jobs, snakemake
+from support.workflow import FIGURES, TABLES, TEST, copy_kernels, jobs, snakemake
 from viscorough_study.run.tables import read_table, split_table
 
 
@@ -28,20 +26,6 @@ def test_every_figure_and_table_is_made(finished_once):
     for table in made(TABLES, finished_once):
         assert split_table(results / f"tables/{table}.csv")[0]["made_with"]["versions"]["viscorough"]
     assert (results / "tables/validation_passed.txt").read_text().splitlines()[1] == "sphere force"
-
-
-def test_published_tables_have_the_columns_of_the_code(finished_once):
-    """A table that lacks a new column would leave the pages of docs/ behind the code."""
-    origins = json.loads((ROOT / "docs/results/published.json").read_text(encoding="utf-8"))
-    of_runs = [name for name, origin in origins.items() if origin["command"] in ("make paper", "make reproduce")]
-    published = {
-        Path(name).stem: ROOT / "docs/results" / name
-        for name in of_runs
-        if name.endswith(".csv") and Path(name).stem in made(TABLES, finished_once)
-    }
-    assert len(published) > 5
-    for name, path in published.items():
-        assert set(pd.read_csv(path)) == set(read_table(finished_once / f"results/tables/{name}.csv")), name
 
 
 def test_files_follow_the_cf_conventions(finished_once):

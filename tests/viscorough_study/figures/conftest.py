@@ -1,13 +1,9 @@
-"""Ensembles of small discs and lines, and all figures drawn, shared by the tests of the figures."""
-
-import warnings
+"""Ensembles of small discs and lines, shared by the tests of the figures."""
 
 import pytest
 
-from support import figures as tables
-from support.figures import COMBINATIONS, ELEMENTS, HURST, X, case_of, published
-from support.study import SHOWN, aggregate, pool_of
-from support.workflow import FIGURES, RULES
+from support.figures import COMBINATIONS, ELEMENTS, HURST, X, case_of
+from support.study import aggregate, evidence, pool_of
 from viscorough.contact.loading_path import indent
 from viscorough.mdr import reduce
 from viscorough.surfaces.self_affine import self_affine_disc, self_affine_line
@@ -54,23 +50,4 @@ def lines():
 
 @pytest.fixture(scope="session")
 def scaling():
-    return published("scaling")
-
-
-@pytest.fixture(scope="session")
-def drawn(discs, pooled, lines, scaling):
-    """Return {file of the report: its figure}, drawn without a warning."""
-    heights = self_affine_disc(0.5, 9, seed=1).heights
-    group = scaling[scaling["source"] == "discs"].assign(source="measured", case_group="polished")
-    arguments = tables.FROM_TABLES | {
-        "fig1_surfaces": ([(h, heights, 1 / 9) for h in (0.1, 0.5, 0.9)],),
-        "fig2_kinetics": (discs, tables.CASES, scaling, SHOWN),
-        "fig3_master_curve": (pooled, pooled[:1], lines, scaling, SHOWN),
-        "regions": (pooled, pooled[:1], tables.slopes_table()),
-        "measured": ({"polished": pooled[0]}, pooled, group, tables.measured_kinetics(), SHOWN),
-    }
-    shares = {name: {"fraction_min": 0.95} for name, rule in FIGURES.items() if "fraction_min" in RULES[rule]}
-    with warnings.catch_warnings(action="error"):
-        return {
-            name: tables.plot(tables.MODULES[name], *given, **shares.get(name, {})) for name, given in arguments.items()
-        }
+    return evidence().tables["scaling"]

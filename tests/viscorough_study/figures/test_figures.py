@@ -1,96 +1,64 @@
-"""Figures show the numbers of their tables, lie whole on their page, and say if their table has no rows."""
+"""Figures 3 and 4 of the paper show the numbers of their tables; figures say if their table has no rows."""
 
 import numpy as np
 import pandas as pd
 import pytest
-from matplotlib.text import Text
 
-from support import figures as tables
-from support.figures import drawn_points, plot, published, whole_on_page
-from support.study import SHOWN
-from viscorough_study.comparisons.histories import FORCE_CURVE, RECOVERY
-from viscorough_study.figures.exponent import SHIFT
-from viscorough_study.figures.style import SMALL
+from support.figures import X, drawn_points
+from support.study import FINE, SHOWN
+from viscorough import reference
+from viscorough_study.comparisons import direct_integration, mdr_comparison, media_kinetics, validation
+from viscorough_study.figures.direct import plot_direct
+from viscorough_study.figures.exponent import SHIFT, plot_exponent
+from viscorough_study.figures.master_curve import plot_master_curve
+from viscorough_study.figures.media import plot_media
+from viscorough_study.figures.reduction import plot_reduction
+from viscorough_study.figures.validation import plot_validation
 from viscorough_study.fits.conventions import READINGS, fits
 
 pytestmark = pytest.mark.filterwarnings("error")
 
-
-def close(line, expected):
-    np.testing.assert_allclose(line, expected, rtol=1e-9)
-
-
-@pytest.mark.long
-def test_figures_are_whole_and_no_text_is_too_small(drawn):
-    assert [name for name, figure in drawn.items() if not whole_on_page(figure)] == []
-    for name, figure in drawn.items():
-        texts = [text for text in figure.findobj(Text) if text.get_text()]
-        assert min(text.get_fontsize() for text in texts) >= SMALL, name
+OF_TABLES = {
+    plot_direct: direct_integration.COLUMNS,
+    plot_media: media_kinetics.COLUMNS,
+    plot_reduction: mdr_comparison.COLUMNS,
+    plot_validation: validation.COLUMNS,
+}
 
 
-@pytest.mark.parametrize("name", tables.FROM_TABLES)
-def test_figure_of_no_rows_says_so(name):
-    first, *others = tables.FROM_TABLES[name]
-    (text,) = plot(tables.MODULES[name], first[:0], *others).texts
+@pytest.mark.parametrize("plot", OF_TABLES)
+def test_figure_of_no_rows_says_so(plot):
+    (text,) = plot(pd.DataFrame(columns=list(OF_TABLES[plot]), dtype=float)).texts
     assert text.get_text() == "no data with these settings"
 
 
-# ---- numbers of tables
-
-
-def points(rows, x, *columns):
-    """Points (x, column) of the rows; nan for an x or column that is None, because its values are shifted."""
-    rows = rows.assign(none=np.nan)
-    return np.concatenate([rows[[x or "none", column or "none"]].to_numpy() for column in columns])
-
-
-def expected_points(scaling):
-    """(figure, panel, points that its axes have)"""
-    reduction, lambdas = published("reduction"), published("mdr_lambda")
-    media, curves, interface = tables.media_table(), tables.interface_curves(), published("interface")
+def test_exponents_and_their_intervals_are_those_of_the_fits(scaling):
+    axes = plot_exponent(scaling, SHOWN, (0.4, 1.0), FINE).axes[0]
+    shown = drawn_points(axes)
     lines = fits(scaling, SHOWN, source="lines", rms_convention="line")
-    interval = ("beta", "beta_low", "beta_high")
-    yield "fig4_exponent", 0, points(lines, "hurst", *interval)
+    expected = [lines, pd.DataFrame(FINE)]
     for reading, columns in READINGS.items():
         rows = fits(scaling, SHOWN | columns, source="discs")
-        yield "fig4_exponent", 0, points(rows.assign(place=rows["hurst"] + SHIFT[reading]), "place", *interval)
-    for panel, name in ((0, "stiffness"), (2, "area"), (3, "gap")):
-        columns = [f"{name}_ratio{end}" for end in ("", "_low", "_high")]
-        yield "reduction", panel, points(reduction.dropna(subset=columns), "x", *columns)
-    yield "reduction", 4, points(reduction, "x", "correlation")
-    yield "reduction", 5, points(reduction, "x", "force_ratio")
-    yield "mdr_lambda", 0, points(lambdas, "x", "lambda", "lambda_low", "lambda_high")
-    yield "mdr_lambda", 1, points(lambdas, "x", "velocity_ratio")
-    yield "mdr_lambda", 2, points(published("mdr_exponents"), None, "difference")
-    for figure, table, key, x, y in (
-        ("media", media, "medium", "time", "velocity"),
-        ("validation", published("validation"), "quantity", "elements", "error"),
-        ("direct", published("direct"), "case", "contact_count", "depth_ratio"),
-    ):
-        for panel, (_, rows) in enumerate(table.groupby(key, sort=False)):
-            yield figure, panel, points(rows, x, y)
-    yield "media", 2, points(media, "x", "depth")
-    motions = dict(tuple(tables.histories_table().query("hurst == 0.9").groupby("motion")))
-    yield "histories", 0, points(motions[FORCE_CURVE], "depth", "force", "direct")
-    yield "histories", 1, points(motions[RECOVERY].query("time >= 0"), "time", "depth", "direct")
-    yield (
-        "interface",
-        0,
-        points(curves[curves["source"] == "discs"], "x", "interface", "interface_low", "interface_high"),
-    )
-    yield "interface", 0, points(published("periodic"), "x", "g")
-    yield "interface", 3, points(interface.query("source == 'discs'"), None, "u0", "u0_low")
-    fine = tables.FROM_TABLES["local_exponent"][0].query("finest == 1")
-    fine = fine.assign(middle=fine["x_low"] * np.sqrt(10))
-    for panel, quantity in enumerate(("whole", "interface")):
-        yield "local_exponent", panel, points(fine[fine["quantity"] == quantity], "middle", "beta")
-    yield "fig4_exponent", 0, points(pd.DataFrame(tables.FINE_GRIDS), "hurst", *interval)
+        expected.append(rows.assign(hurst=rows["hurst"] + SHIFT[reading]))
+    for rows in expected:
+        assert len(rows) > 1
+        for name in ("beta", "beta_low", "beta_high"):
+            for point in rows[["hurst", name]].to_numpy():
+                assert np.isclose(shown, point, rtol=1e-9).all(axis=1).any(), (name, point)
 
 
-def test_figures_show_the_numbers_of_their_tables(drawn, scaling):
-    for figure, panel, expected in expected_points(scaling):
-        shown = drawn_points(drawn[figure].axes[panel])
-        expected = expected[~np.isnan(expected).all(axis=1)][:, None]
-        assert len(expected) > 1
-        near = (np.isclose(shown, expected, rtol=1e-9, atol=1e-12) | np.isnan(expected)).all(axis=2).any(axis=1)
-        assert near.all(), (figure, panel, expected[~near])
+def test_master_curve_is_bold_in_region_b_of_each_reading(pooled, lines, scaling):
+    """The second reading has the ensemble of its square and the windows of its own rows."""
+    _, *ratios = plot_master_curve(pooled, pooled[:1], lines, scaling, SHOWN, fraction_min=0.95).axes
+    readings = (("base", "disc"), ("longer_period", "square"))
+    for axes, members, (group, rms) in zip(ratios, (pooled, pooled[:1]), readings, strict=True):
+        windows = fits(scaling, SHOWN, source="discs", case_group=group, rms_convention=rms).set_index("hurst")
+        curves = [line for line in axes.lines if len(line.get_xdata()) > 2]
+        for ensemble, thin, bold in zip(members, curves[::2], curves[1::2], strict=True):
+            hurst, discs = ensemble["hurst"].item(), ensemble.sel(rms_convention=rms)
+            expected = discs["velocity_geometric"].values / reference.rate_law(X, hurst, gamma=True)
+            kept = (discs["contact_count_median"].values > 1) & (discs["fraction_defined"].values >= 0.95)
+            np.testing.assert_allclose(thin.get_xydata(), np.transpose([X, expected])[kept], rtol=1e-9)
+            inside = kept & (windows.x_low[hurst] * 0.999 < X) & (windows.x_high[hurst] * 1.001 > X)
+            np.testing.assert_allclose(bold.get_xydata(), np.transpose([X, expected])[inside], rtol=1e-9)
+            assert bold.get_linewidth() > 2 * thin.get_linewidth()

@@ -13,11 +13,14 @@ from viscorough_study.fits.conventions import fits
 pytestmark = pytest.mark.filterwarnings("error")
 
 
-def test_kinetics_agree_with_the_curves_in_real_units(curves, drawn):
+@pytest.fixture(scope="module")
+def figure(discs, scaling):
+    return plot_kinetics(discs, CASES, scaling, SHOWN, fraction_min=0.95)
+
+
+def test_kinetics_agree_with_the_curves_in_real_units(curves, figure):
     """viscorough.viscous.kinetics does not use X. The geometric mean of v at the drawn times must agree."""
-    scaled, moving = (
-        {line.get_label(): line.get_data() for line in axes.lines} for axes in drawn["fig2_kinetics"].axes[:2]
-    )
+    scaled, moving = ({line.get_label(): line.get_data() for line in axes.lines} for axes in figure.axes[:2])
     for hurst, name in curves:
         at, label = COMBINATIONS[name], case_of(hurst, name)
         time, velocity = moving[label]
@@ -27,8 +30,8 @@ def test_kinetics_agree_with_the_curves_in_real_units(curves, drawn):
         np.testing.assert_allclose(scaled[label], [at["force"] * time / unit, velocity * time / at["rms"]], rtol=1e-12)
 
 
-def test_kinetics_mark_the_regions(drawn, scaling):
-    axes = drawn["fig2_kinetics"].axes[0]
+def test_kinetics_mark_the_regions(figure, scaling):
+    axes = figure.axes[0]
     bars = [line.get_xdata() for line in axes.lines if line.get_transform() == axes.get_xaxis_transform()]
     fitted = fits(scaling[scaling["hurst"].isin(HURST)], SHOWN, source="discs", case_group="base")
     np.testing.assert_allclose(sorted(map(tuple, bars)), sorted(zip(fitted.x_low, fitted.x_high, strict=True)))

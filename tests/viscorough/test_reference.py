@@ -3,9 +3,7 @@
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pytest
-import xarray as xr
 import yaml
 from scipy.integrate import quad
 from scipy.special import gamma as gamma_function
@@ -102,14 +100,6 @@ def test_functions_agree_with_the_printed_laws(name):
     assert computed == pytest.approx(printed(name, **values), rel=1e-14)
 
 
-def test_transform_of_eq_8_is_eq_7():
-    values = {"F": 2.0, "eta": 3.0, "h": 0.1, "L": 5.0, "zeta": 1.3, "alpha": 0.62}
-    x_over_time = values["F"] / (4 * values["eta"] * values["h"] * values["L"])
-    s = 0.8
-    back = quad(lambda t: np.exp(-s * t) * printed("depth_viscous", X=x_over_time * t, **values), 0, np.inf)[0]
-    assert back == pytest.approx(printed("depth_transform", s=s, **values), rel=1e-6)
-
-
 @pytest.mark.parametrize(
     "build",
     [
@@ -139,10 +129,3 @@ def test_laws_of_negative_numbers_are_refused(x, zeta):
         with pytest.raises(ValueError, match="hurst: -1; allowed"):
             law(-1)
         assert np.isnan(law(np.nan))
-
-
-def test_laws_keep_the_labels_of_their_numbers():
-    hurst = pd.Series([0.5, 1.0], index=["a", "b"])
-    pd.testing.assert_series_equal(reference.exponent_alpha(hurst), 1 / (1 + hurst))
-    expected = xr.DataArray([0.5, 1.0], dims="x", coords={"x": [1, 2]})
-    xr.testing.assert_identical(reference.velocity_law(expected**2, 1.0, 0.5), expected)

@@ -48,32 +48,6 @@ def test_warnings_are_written_once_and_on_one_line(capsys):
     assert capsys.readouterr().err == "viscorough indent: warning: the spacing is odd\n"
 
 
-def test_command_without_arguments_lists_the_commands(capsys):
-    listings = []
-    for arguments in ([], ["-h"], ["--help"]):
-        assert cli.main(arguments) == 0
-        listings.append(capsys.readouterr())
-    assert listings[0] == listings[1] == listings[2]
-    assert listings[0].err == ""
-    for name in cli.cli.commands:
-        assert f"\n  {name} " in listings[0].out
-    assert cli.main(["indent", "-h"]) == 0
-    assert capsys.readouterr().out.startswith("Usage: viscorough indent ")
-
-
-@pytest.mark.parametrize(
-    ("words", "completions"),
-    [("viscorough in", ["plain,indent"]), ("viscorough contact --tol", ["plain,--tolerance"]), ("viscorough x", [])],
-)
-def test_shells_complete_commands_and_options(capsys, monkeypatch, words, completions):
-    """The script named by the help asks for completions as bash does."""
-    monkeypatch.setenv("_VISCOROUGH_COMPLETE", "bash_complete")
-    monkeypatch.setenv("COMP_WORDS", words)
-    monkeypatch.setenv("COMP_CWORD", str(len(words.split()) - 1))
-    assert cli.main([]) == 0
-    assert capsys.readouterr().out.split() == completions
-
-
 def test_errors_in_the_code_are_not_hidden():
     with pytest.raises(ZeroDivisionError):
         run_indent_as(lambda: 1 / 0)

@@ -5,7 +5,7 @@ import pytest
 
 from support.command_line import run
 from support.tables import read_table
-from viscorough import Maxwell, estimate
+from viscorough import estimate
 from viscorough.io import netcdf
 
 OPTIONS = {"hurst": "0.8", "rms": "1e-6", "diameter": "0.01", "force": "10", "viscosity": "1e6", "times": "1e-5,1e-4"}
@@ -56,23 +56,3 @@ def test_file_has_all_numbers_of_the_table(capsys):
     for name in ("depth_error", "velocity_error"):
         assert content.attributes[name] == getattr(WANTED.law, name)
     assert content.variables["depth"].attributes["units"] == "1"
-
-
-def test_media_are_read_from_files(here):
-    (here / "maxwell.yaml").write_text("kind: maxwell\nshear_modulus: 50 MPa\nviscosity: 1000 Pa s\n")
-    changes = {"rms": "1 um", "diameter": "1 cm", "force": "10 mN", "viscosity": None, "medium": "maxwell.yaml"}
-    assert run(command("-o a.nc", times="1e-4,1e-3", **changes)) == 0
-    expected = estimate(0.8, 1e-6, 0.01, 0.01, Maxwell(5e7, 1e3), [1e-4, 1e-3])
-    content = netcdf.read("a.nc")
-    np.testing.assert_allclose(content.variables["velocity"].values, expected.velocity, rtol=1e-12)
-    assert content.attributes["medium"] == "maxwell.yaml"
-    assert [content.variables[name].attributes["units"] for name in ("depth", "velocity")] == ["m", "m s-1"]
-
-
-def test_times_outside_of_the_range_are_marked_and_warned_about(capsys):
-    assert run(command(times="1e-9,1e-5,1")) == 0
-    captured = capsys.readouterr()
-    assert captured.err.startswith("viscorough estimate: warning: 2 of 3 times are outside the range of the law")
-    rows = captured.out.splitlines()[3:-1]
-    assert [row.split()[-1] for row in rows] == ["below", rows[1].split()[3], "above"]
-    assert rows[0].split()[2:4] == ["-"] * 2

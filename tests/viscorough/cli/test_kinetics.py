@@ -7,7 +7,6 @@ import dataclasses
 
 import numpy as np
 import pytest
-import xarray as xr
 import yaml
 
 import viscorough
@@ -89,15 +88,6 @@ def test_depth_histories_load_hold_unload_and_lift(here, curve, capsys, times):
     assert "and force 0 at time 4" in capsys.readouterr().out
 
 
-def test_depth_histories_have_units(here, curve):
-    """The heading gives depths in nm; the force is in N."""
-    (here / "depth.csv").write_text("time (ms),depth (nm)\n0,0\n1,200\n2,50\n")
-    (here / "medium.yaml").write_text("{kind: maxwell, shear_modulus: 2 MPa, viscosity: 5e3}")
-    assert run("kinetics um.nc -o kin.nc --depth-history depth.csv --medium medium.yaml") == 0
-    medium, load = Maxwell(2e-6, 5e-9), Load([0, 1e-3, 2e-3], depth=[0, 0.2, 0.05])
-    np.testing.assert_allclose(values("kin.nc")["force"], kinetics(curve, load, medium).force, rtol=1e-12)
-
-
 def test_columns_of_a_history_without_headings_are_chosen(here, curve, capsys):
     (here / "many.csv").write_text("0,9,0,0\n0,9,0.2,1\n")
     line = f"{KINETICS} --force-history many.csv --viscosity 30 --columns"
@@ -107,21 +97,6 @@ def test_columns_of_a_history_without_headings_are_chosen(here, curve, capsys):
     for columns in ("time=4,speed=2", "time=,force=2", "time=4,time=3", "time=4,force=F"):
         assert run(f"{line} {columns}") == 2
         assert "is not like time=1,force=3, with numbers of columns from 1" in capsys.readouterr().err
-
-
-def test_output_holds_the_text_of_the_medium(here):
-    text = "{kind: maxwell, shear_modulus: 2, viscosity: 5}"
-    (here / "medium.yaml").write_text(text + "\n")
-    assert run(f"{KINETICS} --force 0.3 --medium medium.yaml --times 0.5,2") == 0
-    with xr.open_dataset(here / "kin.nc") as motion:
-        assert motion.attrs["medium_text"] == text
-
-
-def test_files_may_hold_youngs_moduli(here, curve):
-    (here / "medium.yaml").write_text("{kind: kelvin_voigt, young_modulus: 6, viscosity: 5, poisson: 0.5}")
-    assert run(f"{KINETICS} --force 0.3 --medium medium.yaml --times 0.5,2") == 0
-    expected = kinetics(curve, 0.3, KelvinVoigt(2.0, 5.0), [0.5, 2])
-    np.testing.assert_array_equal(values("kin.nc")["depth"], expected.depth)
 
 
 @pytest.mark.parametrize(
@@ -138,13 +113,6 @@ def test_units_are_converted_if_the_curve_has_a_unit_of_length(here, curve, opti
     assert run(f"kinetics um.nc -o kin.nc {options}") == 0
     np.testing.assert_allclose(values("kin.nc")["depth"], kinetics(curve, *expected).depth, rtol=1e-12)
     assert netcdf.read("kin.nc").variables["velocity"].attributes["units"] == "um s-1"
-
-
-def test_times_may_be_given_by_their_number(here):
-    (here / "depth.csv").write_text("time,depth\n0,0\n1,0.2\n3,0.2\n")
-    (here / "medium.yaml").write_text("{kind: maxwell, shear_modulus: 2, viscosity: 5}")
-    assert run(f"{KINETICS} --depth-history depth.csv --medium medium.yaml --times 0:3:7") == 0
-    assert values("kin.nc")["time"].tolist() == [0, 0.5, 1, 1.5, 2, 2.5, 3]
 
 
 def test_missing_values_give_a_warning(here, capsys, complaint):
@@ -200,9 +168,3 @@ def test_bad_media_are_one_line(here, complaint, text, message):
     line = complaint(f"{KINETICS} --force 1 --medium medium.yaml")
     assert message in line
     assert line.startswith("viscorough kinetics: medium.yaml: ")
-
-
-def test_a_force_that_is_zero_at_all_times_is_allowed(here):
-    (here / "force.csv").write_text("time,force\n0,0\n1,0\n")
-    assert run(f"{KINETICS} --force-history force.csv --viscosity 1") == 0
-    assert not values("kin.nc")["depth"].any()

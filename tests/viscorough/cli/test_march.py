@@ -1,18 +1,14 @@
 """`viscorough march`: agreement with kinetics, force histories, media, units, and refusals."""
 
-from contextlib import nullcontext
-
 import numpy as np
 import pytest
 
 from support.command_line import run, values
 from viscorough import self_affine_disc
-from viscorough.cli import messages
 from viscorough.io import netcdf
 
 HEIGHTS = self_affine_disc(0.7, 13, rms=0.02, diameter=13.0, seed=3).heights
 MARCH = "march heights.npy --spacing 1 --unit 1 -o march.nc"
-MEDIUM = f"{MARCH} --medium medium.yaml"
 
 
 @pytest.fixture(autouse=True)
@@ -50,13 +46,6 @@ def test_marching_agrees_with_kinetics(motion, method, tolerance):
         np.testing.assert_allclose(marched["velocity"][last], expected["velocity"], rtol=10 * tolerance)
 
 
-def test_march_shows_its_progress(monkeypatch):
-    shares = []
-    monkeypatch.setattr(messages, "progress_bar", lambda label, shown: nullcontext(shares.append))
-    assert run(f"{MARCH} --method implicit --times 1,2") == 0
-    assert shares[-2:] == pytest.approx([1 - 1 / len(shares), 1])
-
-
 def test_march_continues_while_contact_recedes(complaint):
     message = "--method events, a medium that is not Newtonian; allowed: a force on a Newtonian medium, or --method"
     assert message in complaint(f"{MARCH} --method events {PULSE}")
@@ -66,15 +55,3 @@ def test_march_continues_while_contact_recedes(complaint):
     fraction, force = (content.variables[name].values for name in ("contact_fraction", "force"))
     np.testing.assert_array_equal(force, [0, 0.2, 0.02, 0.02])
     assert fraction[2] < fraction[1]
-
-
-@pytest.mark.parametrize("method", ["events", "implicit"])
-def test_viscosities_are_in_pascal_seconds_if_the_file_has_a_unit(method):
-    """The surface is the same in metres and in micrometres."""
-    np.save("metres.npy", 1e-6 * HEIGHTS)
-    common = f"--method {method} --times 0.1,0.2 --force '1 N' --viscosity '2e12 Pa s'"
-    assert run(f"march heights.npy --spacing 1 --unit um {common} -o um.nc") == 0
-    assert run(f"march metres.npy --spacing 1e-6 --unit m {common} -o m.nc") == 0
-    um, m = values("um.nc"), values("m.nc")
-    np.testing.assert_allclose(um["time"], m["time"], rtol=1e-9, atol=1e-9 * m["time"][-1])
-    np.testing.assert_allclose(um["depth"] * 1e-6, m["depth"], rtol=1e-6, atol=1e-9 * m["depth"][-1])

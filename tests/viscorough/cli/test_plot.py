@@ -64,33 +64,9 @@ def test_every_kind_of_file_is_drawn_and_follows_the_cf_conventions(made, here, 
         assert len(picture.convert("L").getcolors()) > 20
 
 
-@pytest.mark.parametrize(
-    ("file", "suffix", "start"),
-    [
-        ("march.nc", "png", b"\x89PNG"),
-        ("march.nc", "svg", b"<?xml"),
-        ("heights.npy --spacing 1 --unit 1", "pdf", b"%PDF"),
-    ],
-)
-def test_figures_are_reproducible_in_every_format(here, suffix, start, file):
-    for name in ("a", "b"):
-        assert run(f"plot {file} -o {name}.{suffix}") == 0
-    content = (here / f"a.{suffix}").read_bytes()
-    assert content == (here / f"b.{suffix}").read_bytes()
-    assert content.startswith(start)
-
-
 def axes_of(file):
     (axes, *_) = viscorough.plot(netcdf.read(file)).axes
     return axes.get_xlabel(), axes.get_ylabel()
-
-
-def test_axes_have_names_and_units(here):
-    """In a medium, the force of a motion is a function of time, unlike F/G of a loading curve."""
-    assert run("indent disc.nc -o um_curve.nc") == 0
-    assert axes_of("um_curve.nc") == ("depth (um)", "force F/G (um2)")
-    assert axes_of("motion.nc") == axes_of("medium.nc") == ("time (s)", "depth")
-    assert axes_of("disc.nc") == ("x (um)", "y (um)")
 
 
 def test_axes_are_in_si_units_with_a_modulus(here):
@@ -119,15 +95,3 @@ def test_maps_have_the_first_row_at_the_top():
     assert (axes.get_xlabel(), axes.get_ylabel(), colours.get_ylabel()) == ("x (µm)", "y (µm)", "height (nm)")
     np.testing.assert_allclose(axes.images[0].get_extent(), [-125, 125, 25, -25])
     assert axes.images[0].origin == "upper"
-
-
-def test_results_are_drawn_from_python(here):
-    """Of several contacts in a file the last is drawn, like the only one of a result."""
-    indenter = viscorough.Indenter(sphere_heights(17), 1.0, length_unit="um")
-    contact = viscorough.contact_at(indenter, depth=0.3)
-    figure = viscorough.plot(contact, "contact.png")
-    assert (here / "contact.png").exists()
-    np.testing.assert_allclose(figure.axes[0].images[0].get_array(), contact.pressure, rtol=1e-6)
-    several = netcdf.read("contacts.nc")
-    drawn = viscorough.plot(several).axes[0].images[0].get_array()
-    np.testing.assert_array_equal(drawn, several.variables["pressure"].values[-1])

@@ -4,14 +4,13 @@ import numpy as np
 import pytest
 
 from support.contract import refused
-from support.curves import curve_of_body
 from viscorough import (
     Indenter,
     indent,
     reference,
     self_affine_disc,
 )
-from viscorough.contact.grid_error import FORCE_SAFETY_FACTOR, SAFETY_FACTOR, with_grid_errors
+from viscorough.contact.grid_error import SAFETY_FACTOR
 
 HALF_A_DECADE = np.log(10) / 2
 BALL = reference.sphere(2.0)
@@ -73,35 +72,6 @@ def test_grid_error_of_a_flat_punch(shape):
     assert curve.grid_error == pytest.approx(SAFETY_FACTOR * abs(change))
     assert curve.mean_grid_error == pytest.approx(curve.grid_error[0])
     assert curve.area_change == pytest.approx([punch.elements / (4 * every_second(punch).elements) - 1])
-
-
-def test_coarse_curve_is_continued_as_a_straight_line():
-    """The curve of every second point ends at half of the depth; its stiffness stays the same from there on."""
-    depth = np.geomspace(0.01, 1.0, 200)
-    curve, coarse = curve_of_body(BALL, depth), curve_of_body(BALL, depth[depth <= 0.5])
-    end = coarse.depth[-1]
-    curve = with_grid_errors(curve, coarse, BALL.indenter(33, width=2), 0.0)
-    force = np.geomspace(curve.force[-1] / np.sqrt(10), curve.force[-1], 2001)
-    depth = (force / BALL.force(1.0)) ** (2 / 3)
-    beyond = np.maximum(depth - end, 0.0)
-    straight = BALL.force(np.minimum(depth, end)) + BALL.stiffness(end) * beyond
-    assert curve.force_grid_error[-1] == pytest.approx(
-        FORCE_SAFETY_FACTOR * root_mean_square(1 - straight / force), rel=0.02
-    )
-    ratio = BALL.stiffness(depth) / BALL.stiffness(np.minimum(depth, end))
-    assert curve.grid_error[-1] == pytest.approx(SAFETY_FACTOR * root_mean_square(np.log(ratio)), rel=0.02)
-
-
-def test_given_levels_have_grid_errors():
-    disc = self_affine_disc(0.8, 65, rms=0.02, seed=1)
-    whole = indent(disc, estimate_grid_error=True)
-    force = whole.force[[-8, -4]]
-    for given in ({"forces": force}, {"depths": whole.depth[[-8, -4]]}):
-        curve = indent(disc, estimate_grid_error=True, **given)
-        np.testing.assert_allclose(curve.force, force, rtol=1e-4)
-        assert curve.grid_error.shape == (2,)
-        assert (curve.grid_error < 3 * whole.grid_error[[-8, -4]]).all()
-    assert indent(disc, forces=force).grid_error is None
 
 
 def test_missing_points_and_rectangles_have_grid_errors():

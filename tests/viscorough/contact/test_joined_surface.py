@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from viscorough import Indenter, SolverOptions, indent, self_affine_disc
+from viscorough import Indenter, indent, self_affine_disc
 from viscorough.contact.complete_contact import complete_contact
-from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.reference import sphere
 from viscorough.surfaces.self_affine import self_affine_square
 
@@ -57,31 +56,8 @@ def test_curve_until_almost_all_elements_touch_does_not_pass_complete_contact(na
     assert curve.depth[-1] <= complete_contact(INDENTERS[name]).depth * (1 + 1e-4)
 
 
-def test_long_first_steps_do_not_pass_complete_contact():
-    """With a start fraction, the first steps of the path are up to four times the depth."""
-    curve = indent(pit(41), tolerance=0.1, start_fraction=1 - 1e-4, until_fraction=1.0)
-    np.testing.assert_allclose(curve.depth[-1], complete_contact(pit(41)).depth, rtol=1e-3)
-
-
-@pytest.mark.parametrize("dense", [0, 10**9])
-def test_end_does_not_depend_on_the_solver(dense):
-    indenter = self_affine_disc(0.7, 25, seed=3)
-    options = SolverOptions(dense_contacts=dense, dense_interactions=dense)
-    curve = indent(indenter, tolerance=1e-3, until_fraction=1.0, options=options)
-    np.testing.assert_allclose(curve.depth[-1], complete_contact(indenter).depth, rtol=1e-5)
-
-
 def test_force_beyond_complete_contact_ends_the_curve_there():
     disc = INDENTERS["disc, H = 0.5"]
     end = complete_contact(disc)
     curve = indent(disc, tolerance=1e-2, until_fraction=1.0, until_force=3 * end.force)
     np.testing.assert_allclose(curve.force[-1], end.force, rtol=1e-4)
-
-
-@pytest.mark.filterwarnings("ignore:indent. the curve ends")  # elements that touch almost at once; no matter here
-@pytest.mark.parametrize("end", [{"until_fraction": 0.5}, {"until_fraction": 0.9}, {"until_force": 20.0}])
-@pytest.mark.parametrize("tolerance", [0.1, 1e-3])
-def test_complete_contact_is_not_computed_for_curves_that_end_well_below_it(tolerance, end, monkeypatch):
-    monkeypatch.delattr(ContactSolver, "solve_complete_contact")
-    for hurst in (0.2, 0.8):
-        indent(self_affine_disc(hurst, 65, seed=2), tolerance=tolerance, **end)

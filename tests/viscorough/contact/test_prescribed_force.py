@@ -66,50 +66,6 @@ def test_last_correction_changes_the_stiffness_within_the_tolerance(share, is_ne
     assert ForceSearch(solver)._is_near(contact, before, target) == is_near
 
 
-def test_contact_events_meet_a_small_force_without_a_solution(monkeypatch):
-    """The contact events of the highest element end at the force, so no contact is solved."""
-    depths, advance = [], ContactSolver.advance_reduced
-    monkeypatch.setattr(ContactSolver, "advance_reduced", lambda *args: depths.append(args[2]) or advance(*args))
-    disc = self_affine_disc(0.8, 129, seed=3)
-    search = ForceSearch(ContactSolver(disc, 1e-3))
-    contacts = [search.contact_at(force) for force in (0.01, 0.1, 0.2)]
-    assert [contact.count for contact in contacts] == sorted({contact.count for contact in contacts})
-    assert 100 < contacts[-1].count < 200
-    assert not depths
-    exact = indent(disc, depths=[contact.depth for contact in contacts], tolerance=1e-9)
-    np.testing.assert_allclose(exact.force, [0.01, 0.1, 0.2], rtol=1e-12)
-
-
-def test_box_stays_small_despite_a_distant_element():
-    """This element lies a little deeper than the contact at the force. The box must not span the map because of it."""
-    heights = np.pad(self_affine_square(0.8, 128, seed=1), ((0, 172), (0, 172)), constant_values=-9.0)
-    load = contact_at(Indenter(heights, 1.0), force=50.0, tolerance=1e-6)
-    heights[-1, -1] = heights.max() - 1.03 * load.depth
-    solver = ContactSolver(Indenter(heights, 1.0), 1e-6, GRID, whole=False)
-    contact = ForceSearch(solver).contact_at(50.0)
-    assert contact.depth == pytest.approx(load.depth, rel=1e-6)
-    assert np.count_nonzero(contact.fields.initial_gap < 1e9) <= 128**2
-
-
-def test_contact_at_the_depth_of_a_force_has_this_force():
-    disc = self_affine_disc(0.8, 257, seed=3)
-    for force in (0.1, 1.0, 10.0):
-        at_force = indent(disc, forces=[force], tolerance=1e-6)
-        # Forces are met with half the tolerance.
-        at_depth = indent(disc, depths=at_force.depth, tolerance=5e-7)
-        assert at_depth.force == pytest.approx(force, rel=1e-8)
-
-
-def test_box_excludes_hills_that_are_not_reached():
-    """The power law through the first contacts leads above the second hill; the contact is far below it."""
-    row, column = np.mgrid[:512, :512]
-    first, second = (np.exp(-((row - at) ** 2 + (column - at) ** 2) / 3200) for at in (80, 430))
-    heights = np.maximum(first, 0.6 * second) + 0.1 * self_affine_square(0.8, 512, seed=2)
-    search = ForceSearch(ContactSolver(Indenter(heights, 1.0), 1e-6, SolverOptions(dense_interactions=0)))
-    inside = search.contact_at(40.0).fields.initial_gap < 1e9
-    assert np.count_nonzero(inside) < 0.1 * heights.size
-
-
 @pytest.mark.parametrize(("hurst", "large"), [(0.2, 1 << 15), (0.8, 1 << 15), (0.8, 1 << 10)])
 def test_coarse_map_bounds_the_depth_of_the_contact(hurst, large):
     """The contacts range from few elements to complete contact. Blocks at the edges have fewer elements."""
@@ -146,43 +102,8 @@ def test_force_that_the_first_guess_meets_exactly_is_accepted():
     np.testing.assert_allclose(exact.force, curve.force, rtol=1e-6)
 
 
-def test_exact_loads_of_blocks_are_accepted():
-    """One element carries the force: once the depth fits its load, no search direction is left."""
-    heights = np.full((1, 24), -1.0)
-    heights[0, 8] = 0.0
-    forces = np.array([1e-4, 6e-4, 3e-3])
-    options = SolverOptions(dense_interactions=0, blocks_from=1, blocks_in_contact=1)
-    curve = indent(Indenter(heights - 1e-3 * np.arange(24), 1.0), forces=forces, tolerance=1e-6, options=options)
-    punch = indent(Indenter(np.zeros((1, 1)), 1.0), forces=forces)
-    np.testing.assert_allclose(curve.depth, punch.depth, rtol=1e-6)
-
-
-def test_blocks_that_differ_by_rounding_are_solved():
-    wave = np.sin(np.pi * np.arange(200) / 2) ** 2
-    contact = contact_at(Indenter(-np.add.outer(wave, wave), 1.0), force=1e3)
-    assert contact_at(Indenter(-np.add.outer(wave, wave), 1.0), depth=contact.depth).force == pytest.approx(
-        1e3, rel=1e-3
-    )
-
-
 def test_error_names_the_force_that_is_not_met():
     with pytest.raises(ConvergenceError, match=r"contact at F/G = 5: the force is not met within 1 depths"):
         contact_at(
             self_affine_disc(0.8, 65, seed=3), force=5.0, options=SolverOptions(dense_contacts=10**4, max_depths=1)
         )
-
-
-def test_progress_is_reported_up_to_the_end():
-    values = [0.1, 1.0, 2.0]
-    for function, arguments in (
-        (indent, {"forces": values}),
-        (indent, {"depths": values}),
-        (indent, {"until_fraction": 0.5}),
-        (contact_at, {"force": values}),
-    ):
-        shares = []
-        function(self_affine_disc(0.8, 33, seed=3), progress=shares.append, **arguments)
-        assert shares == sorted(shares)
-        assert len(shares) >= np.size(*arguments.values())
-        assert shares[0] > 0
-        assert shares[-1] == 1

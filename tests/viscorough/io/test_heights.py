@@ -189,24 +189,6 @@ def test_arguments_that_are_no_numbers_are_refused_by_name(tmp_path, options, me
         read_heights(tmp_path / "heights.npy", **options)
 
 
-def test_spacings_of_every_type_count_as_floats(tmp_path):
-    np.save(tmp_path / "heights.npy", np.arange(16.0).reshape(4, 4) % 5)
-    nanometres = pint.Quantity(500.0, "nm")
-    for spacing in (0.5, np.float16(0.5), np.longdouble(0.5), "0.5 um", nanometres, [0.5, nanometres]):
-        assert read_heights(tmp_path / "heights.npy", spacing, unit="um").spacing == 0.5
-
-
-@pytest.mark.filterwarnings("error", "ignore:.*rms slope")
-@pytest.mark.parametrize("spacing", [1e308, 1e-300])
-@pytest.mark.parametrize("detrend", ["none", "plane"])
-def test_maps_whose_size_overflows_are_prepared(tmp_path, spacing, detrend):
-    np.save(tmp_path / "heights.npy", np.random.default_rng(1).normal(size=(8, 8)))
-    extreme, usual = (read_heights(tmp_path / "heights.npy", each, detrend=detrend) for each in (spacing, 1.0))
-    np.testing.assert_allclose(extreme.heights, usual.heights, rtol=0, atol=1e-12)
-    with pytest.raises(ValueError, match="unit of length is needed"):
-        viscorough.indent(extreme)
-
-
 def map_of(x, y, heights, **attributes):
     """Return a dataset of heights in um with coordinates in um."""
     axes = {name: (name, values, {"units": "um"}) for name, values in (("y", y), ("x", x))}
@@ -245,12 +227,6 @@ def test_a_field_of_unlikely_size_gives_a_warning(tmp_path, recwarn, spacing, is
     read_heights(tmp_path / f"a.{suffix}", *([spacing] if suffix == "npy" else []), unit="m")
     texts = [str(warning.message) for warning in recwarn]
     assert any("fields are from 1 nm to 10 m wide: check spacing and unit" in text for text in texts) is is_doubtful
-
-
-def test_heights_in_metres_with_another_unit_give_a_warning(tmp_path):
-    np.save(tmp_path / "a.npy", 1e-9 * np.random.default_rng(1).random((17, 17)))
-    with pytest.warns(AccuracyWarning, match="the field is 1.7e-11 m by 1.7e-11 m wide"):
-        read_heights(tmp_path / "a.npy", 1e-6, unit="um")
 
 
 @pytest.mark.parametrize(("offset", "is_coarse"), [(1e2, False), (1e4, True)])

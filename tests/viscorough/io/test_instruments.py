@@ -3,12 +3,10 @@
 import re
 import struct
 import sys
-import zipfile
 from pathlib import Path
 
 import numpy as np
 import pytest
-import scipy.io
 
 from support.contract import refused
 from viscorough import AccuracyWarning, read_heights
@@ -151,16 +149,6 @@ def test_digital_surf_files_of_a_surface_are_read(tmp_path):
         read_heights(tmp_path / "two.sur")
 
 
-def test_x3p_files_of_another_revision_are_refused_by_its_name(tmp_path):
-    surface = SurfaceTopography.Topography(MAP.T, (7 * 2e-6, 5 * 3e-6), unit="m")
-    surface.to_x3p(str(tmp_path / "plain.x3p"))
-    with zipfile.ZipFile(tmp_path / "plain.x3p") as plain, zipfile.ZipFile(tmp_path / "new.x3p", "w") as file:
-        for member in plain.namelist():
-            file.writestr(member, plain.read(member).replace(b"ISO5436 - 2000", b"ISO25178-72:2017"))
-    with refused("x3p files are read in the revision 'ISO5436 - 2000', and its revision is ISO25178-72:2017"):
-        read_heights(tmp_path / "new.x3p")
-
-
 def made_map(error):
     """Run the lines of Python that a message shows, and return the map that they make."""
     exec(re.search(r"in Python: (.*)", str(error.value))[1], {})
@@ -174,15 +162,6 @@ def test_tiff_is_refused_with_the_line_that_makes_a_map(tmp_path, monkeypatch, b
     tifffile.imwrite("a.ome.tif", MAP, bigtiff=big)
     with refused("TIFF is not read; spacing then states the size of its pixels") as error:
         read_heights("a.ome.tif", "3 um")
-    np.testing.assert_array_equal(made_map(error), MAP)
-
-
-@pytest.mark.parametrize("name", ["a.mat", "a.npz"])
-def test_archives_of_arrays_are_refused_with_the_line_that_makes_a_map(tmp_path, monkeypatch, name):
-    monkeypatch.chdir(tmp_path)
-    (scipy.io.savemat if name == "a.mat" else lambda path, content: np.savez(path, **content))(name, {"NAME": MAP})
-    with refused("an archive of arrays is not read") as error:
-        read_heights(name, 1.0)
     np.testing.assert_array_equal(made_map(error), MAP)
 
 
@@ -210,8 +189,3 @@ def test_message_without_the_extra_names_the_remedy(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "SurfaceTopography.IO", None)  # as if it were not installed
     with refused(r'pip install "viscorough\[formats\]"'):
         read_heights(tmp_path / "a.x3p")
-
-
-def test_the_content_decides_whatever_the_suffix(tmp_path):
-    (tmp_path / "b.txt").write_bytes((FILES / "top-1.top").read_bytes())
-    assert read_heights(tmp_path / "b.txt").heights.shape == (256, 256)

@@ -19,8 +19,7 @@ def text(delimiter, row_end="\n"):
     return row_end.join(rows)
 
 
-@pytest.mark.parametrize("delimiter", [" ", "   ", "\t", ",", ", ", ";", " ; "])
-@pytest.mark.parametrize("row_end", ["\n", "\r\n", "\r"])
+@pytest.mark.parametrize(("delimiter", "row_end"), [("   ", "\n"), ("\t", "\r\n"), (", ", "\r"), (" ; ", "\n")])
 def test_a_matrix_with_one_delimiter_is_read(tmp_path, delimiter, row_end):
     (tmp_path / "a.txt").write_text(f"# first run{row_end}{text(delimiter, row_end)}{row_end}", newline="")
     indenter = read_heights(tmp_path / "a.txt", (0.5, 0.75), unit="um")
@@ -78,9 +77,8 @@ def test_texts_that_are_no_matrix_of_numbers_are_refused(tmp_path, content, what
         *("x-length: 4000", "Einheit", "Z in Ångström", "micrometres", "rad", "20 °C", "in \N{GREEK SMALL LETTER MU}m"),
     ],
 )
-@pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
-def test_comments_with_a_unit_or_a_number_are_refused(tmp_path, comment, encoding):
-    (tmp_path / "a.txt").write_text(f"# {comment}\n{text(' ')}", encoding=encoding)
+def test_comments_with_a_unit_or_a_number_are_refused(tmp_path, comment):
+    (tmp_path / "a.txt").write_text(f"# {comment}\n{text(' ')}", encoding="utf-8")
     with refused(r"line 1 .*holds a unit or a number, .*; save as \.gwy or NetCDF, or remove the line"):
         read_heights(tmp_path / "a.txt", 1.0, unit="um")
 

@@ -88,14 +88,6 @@ def test_contradictions_are_refused_in_one_line(tmp_path, content, arguments, wh
     assert str(error.value).startswith(str(path))
 
 
-def test_coordinates_without_a_unit_state_the_ratio_of_the_spacings(tmp_path):
-    path = netcdf_map(tmp_path / "a.nc", x_unit=None, y_unit=None)
-    indenter = read_heights(path, ("500 nm", "1 um"))
-    assert (indenter.spacing, indenter.row_spacing) == (0.5, 1)
-    with refused("spacing: in the file, rows are 2 times as far apart as columns"):
-        read_heights(path, "1 um")
-
-
 def stored(path, kind, values, fill_value=None, **attributes):
     """Write a file with the given stored values in a variable `z`; values of None are not written."""
     values = np.ma.masked_equal(np.where(np.equal(values, None), 0, values).astype(kind), 0)
@@ -175,31 +167,6 @@ def test_bytes_that_may_be_missing_are_refused(tmp_path, kind, fill):
         read_heights(stored(tmp_path / "a.nc", kind, [[1, fill], [3, 4]], scale_factor=0.5), 1.0)
     path = stored(tmp_path / "b.nc", kind, [[1, fill], [3, 4]], fill_value=fill, scale_factor=0.5)
     np.testing.assert_array_equal(read_heights(path, 1.0).heights, [[0.5, np.nan], [1.5, 2]])
-
-
-def test_whole_heights_with_a_unit_are_read(tmp_path):
-    path = stored(tmp_path / "a.nc", "f8", [[1, 2], [3, 9]], units="nm")
-    assert read_heights(path, 1.0).heights.tolist() == [[1, 2], [3, 9]]
-
-
-@pytest.mark.parametrize("name", ["a.nc", "a.nc4", "a.cdf", "a.txt", "a"])
-def test_the_content_decides_whatever_the_suffix(tmp_path, name):
-    netcdf_map(tmp_path / "a.nc")
-    (tmp_path / "b").mkdir()
-    (tmp_path / "b" / name).write_bytes((tmp_path / "a.nc").read_bytes())
-    indenter = read_heights(tmp_path / "b" / name)
-    assert (indenter.spacing, indenter.row_spacing, indenter.length_unit) == (0.5, 1, "um")
-
-
-@pytest.mark.parametrize("kind", ["NETCDF3_CLASSIC", "NETCDF3_64BIT_OFFSET", "NETCDF3_64BIT_DATA", "NETCDF4_CLASSIC"])
-def test_every_form_of_netcdf_is_read(tmp_path, kind):
-    with netCDF4.Dataset(tmp_path / "a.nc", "w", format=kind) as file:
-        file.createDimension("y", 3)
-        file.createDimension("x", 4)
-        variable = file.createVariable("z", "f8", ("y", "x"))
-        variable.units = "um"
-        variable[...] = HEIGHTS
-    np.testing.assert_array_equal(read_heights(tmp_path / "a.nc", 1.0).heights, HEIGHTS)
 
 
 @pytest.mark.parametrize(

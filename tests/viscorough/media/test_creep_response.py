@@ -4,10 +4,9 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
 
 from support.media import MEDIA
-from viscorough import KelvinVoigt, Load, LoadingCurve, Maxwell, Newtonian, Prony, StandardLinearSolid, kinetics
+from viscorough import KelvinVoigt, Load, LoadingCurve, Newtonian, Prony, StandardLinearSolid, kinetics
 from viscorough.media.creep_response import branch_forces, creep_response
 from viscorough.viscous.crossing import first_decrease
 
@@ -73,14 +72,6 @@ def receding_from(medium, force, times):
     return first_decrease(medium.spectrum(load), load.time, load.values)
 
 
-def test_maxwell_may_unload_slowly():
-    """Φ' = F'/G + F/η: unloading is allowed until F = η |F'|/G, here at F = 2.5·0.2 = 0.5."""
-    medium, times = Maxwell(2.0, 5.0), [0.0, 4.0, 5.0]
-    assert np.isnan(receding_from(medium, [1.3, 0.5, 0.5], times))
-    assert receding_from(medium, [1.3, 0.5 - 1e-6, 0.5], times) == pytest.approx(4.0, abs=1e-4)
-    assert receding_from(medium, [1.0, 0.2, 0.2], times) == pytest.approx(2.5, rel=1e-5)
-
-
 def test_first_decrease_against_dense_sampling():
     """Random histories in random media, those that recede within an interval and move on before its end included."""
     random, within = np.random.default_rng(4), 0
@@ -103,27 +94,6 @@ def test_first_decrease_against_dense_sampling():
 @pytest.mark.parametrize("name", ["maxwell", "solid", "prony", "prony liquid", "springpot"])
 def test_creep_decreases_at_a_step_down_where_the_medium_springs_at_once(name):
     assert receding_from(MEDIA[name], [1.0, 1.0, 0.9, 0.9], [0.0, 1.0, 1.0, 2.0]) == 1.0
-
-
-def test_steps_down_that_viscous_media_carry():
-    """Newtonian: any. Kelvin-Voigt: down to the force of the spring, G y; below it the contact recedes."""
-    times = [0.0, 1.0, 1.0, 2.0]
-    assert np.isnan(receding_from(Newtonian(3.0), [1.0, 1.0, 0.0, 0.0], times))
-    held = -np.expm1(-1 / 2.5)
-    assert np.isnan(receding_from(KelvinVoigt(2.0, 5.0), [1.0, 1.0, held + 1e-9, held + 1e-9], times))
-    assert receding_from(KelvinVoigt(2.0, 5.0), [1.0, 1.0, held - 1e-3, held - 1e-3], times) == 1.0
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("name", ["springpot", "prony"])
-def test_decrease_is_where_dense_sampling_finds_it(name):
-    """Loaded at once, held and unloaded slowly: the first time at which a dense sampling of Φ decreases."""
-    medium, dense = MEDIA[name], np.linspace(1, 21, 4001)
-    time = receding_from(medium, [1.0, 1.0, 0.0], [0.0, 1.0, 21.0])
-    unloaded = [quad(medium.creep_compliance, 0, lag, epsrel=1e-10)[0] for lag in dense - 1]
-    creep = medium.creep_compliance(dense) - 0.05 * np.array(unloaded)
-    first = dense[np.flatnonzero(np.diff(creep) < 0)[0]]
-    assert time == pytest.approx(first, abs=0.02)
 
 
 def test_noise_of_rounding_is_no_decrease():

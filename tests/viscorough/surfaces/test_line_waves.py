@@ -3,9 +3,7 @@
 import numpy as np
 from scipy import stats
 
-from viscorough.surfaces import line_waves
 from viscorough.surfaces.line_waves import key_of, random_words, shortest_wave, waves
-from viscorough_study.run.seeds import line_key, realization_seed
 
 KEY = key_of(np.random.SeedSequence(7))
 MANY = 2**18
@@ -32,11 +30,6 @@ def test_waves_depend_on_their_number_and_key_alone():
     assert len(np.intersect1d(together, other)) == 0
 
 
-def test_realizations_of_the_study_have_different_keys():
-    seeds = (realization_seed(2013, *line_key(0.5), number) for number in range(1000))
-    assert len({tuple(key_of(seed)) for seed in seeds}) == 1000
-
-
 def test_coefficients_are_gaussian():
     """The test takes real and imaginary parts of many waves. Each line has a false alarm with a chance of 1e-4."""
     drawn = waves(1, KEY, np.ones(MANY), fixed=False)
@@ -57,9 +50,3 @@ def test_shortest_wave_has_the_same_mean_power_as_the_others():
     fixed = np.array([shortest_wave(8, key, 3.0, fixed=True) for key in keys])
     np.testing.assert_allclose(abs(fixed), 3, rtol=1e-15)
     assert abs(np.mean(np.sign(fixed))) < 4 / np.sqrt(len(keys))
-
-
-def test_smallest_and_largest_moduli_are_finite():
-    size, modulus = np.array([0, 1, 2**31, 2**32 - 1], np.uint32), np.empty(4, np.float32)
-    line_waves._moduli(size, np.ones(4, np.float32), modulus)
-    np.testing.assert_allclose(modulus, np.sqrt(-2 * np.log((size + 0.5) * 2.0**-32)), rtol=3e-7, atol=3e-4)

@@ -57,9 +57,3 @@ def test_any_order_has_the_same_heights(points, dtype):
     np.testing.assert_array_equal(curve.contact_count, expected.contact_count)
     np.testing.assert_array_equal(curve.depth[:-1], expected.depth[:-1])
     np.testing.assert_allclose(curve.force, expected.force, rtol=1e-12)
-
-
-def test_too_many_waves_are_refused(monkeypatch):
-    monkeypatch.setattr("viscorough.basics.memory.require", lambda *_: None)
-    with pytest.raises(ValueError, match="points: must be at most 8589934591, not 8589934592"):
-        SelfAffineLines(0.5, 2**33)

@@ -1,46 +1,14 @@
 """The force under a given depth, of a sphere against closed forms."""
 
 import numpy as np
-import pytest
-from scipy.integrate import quad
 
 from support.contract import refused
 from support.curves import curve_of_body
-from support.media import MEDIA, SPRINGS_AND_DASHPOTS
+from support.media import MEDIA
 from viscorough import KelvinVoigt, kinetics, reference
 
 SPHERE = reference.sphere(1.7)
 CURVE = curve_of_body(SPHERE, np.geomspace(1e-6, 1, 601))
-
-
-@pytest.mark.parametrize("name", ["maxwell", "solid", "prony", "springpot"])
-def test_step_relaxes_with_the_modulus(name):
-    times = np.array([1.0, 1.1, 2.0, 30.0])
-    result = kinetics(CURVE, depth=np.full(4, 0.3), medium=MEDIA[name], times=times)
-    expected = SPHERE.force(0.3) * MEDIA[name].relaxation_modulus(times - 1)
-    # A springpot is replaced by springs and dashpots with its J to 1e-8.
-    np.testing.assert_allclose(result.force, expected, rtol=1e-7 if name == "springpot" else 1e-9)
-
-
-@pytest.mark.parametrize("name", SPRINGS_AND_DASHPOTS)
-def test_ramp_and_hold_agree_with_quadrature(name):
-    """The force is ∫ψ(t − s) f'(u(s)) u' ds over the ramp, by quadrature, plus η k u' of a moving dashpot.
-
-    The history gives the end of the ramp twice, so the force is known just before and just after it.
-    """
-    medium, speed, end = MEDIA[name], 0.2, 1.5
-    times = np.array([0, 0.7, 1.2, 1.5, 1.5, 2.0, 9.0])
-    depth = speed * np.minimum(times, end)
-    result = kinetics(CURVE, depth=depth, medium=medium, times=times)
-    for k in range(1, 7):
-
-        def integrand(s, time=times[k]):
-            return medium.relaxation_modulus(time - s) * speed * SPHERE.stiffness(speed * s)
-
-        expected = quad(integrand, 0, min(times[k], end))[0]
-        if name in ("newtonian", "kelvin-voigt") and k <= 3:
-            expected += medium.viscosity * speed * SPHERE.stiffness(speed * times[k])
-        assert result.force[k] == pytest.approx(expected, rel=3e-4, abs=1e-12)
 
 
 def test_force_of_a_dashpot_is_taken_just_after_each_time():

@@ -65,13 +65,6 @@ def test_contact_between_few_levels_is_the_contact_of_the_curve():
     assert under_force == pytest.approx(by_depth, rel=1e-2)
 
 
-def test_sum_of_many_samples_reaches_the_last_level():
-    for force in (1 / 3, 0.7, 1e9):
-        times = np.linspace(0, VISCOSITY * CURVE.force[-1] / force, 100_001)
-        result = kinetics(CURVE, np.full(times.size, force), VISCOSITY, times)
-        assert result.depth[-1] == pytest.approx(CURVE.depth[-1], rel=1e-9)
-
-
 def test_depth_is_undetermined_before_the_first_level():
     """At zero force the depth is zero. Above it, a curve of a round body is undetermined up to its first level."""
     times = np.array([0, 1e-12, 1])
@@ -153,13 +146,6 @@ def test_default_times_are_a_hundred_over_the_whole_curve(name):
     np.testing.assert_allclose(result.depth, depth, rtol=accuracy(name, 1e-11))
     end = FORCE * medium.creep_compliance(1e300)
     assert result.depth[-1] == pytest.approx(min(CURVE.depth[-1], depth_of_sphere(end)), rel=2e-3)
-
-
-@pytest.mark.parametrize("exponent", [0.07, 0.2, 0.3, 0.6, 0.95])
-def test_default_times_in_a_springpot_end_before_the_last_level(exponent):
-    """J of the springs and dashpots that replace a springpot may be larger than its J by 1e-8."""
-    result = kinetics(dataclasses.replace(CURVE, tolerance=1e-3), FORCE, Springpot(2.0, exponent))
-    assert result.depth[-1] == pytest.approx(CURVE.depth[-1], rel=1e-6)
 
 
 # ---- refusals

@@ -8,7 +8,7 @@ import pytest
 from support.curves import curve_of_body, curve_of_levels, random_curve
 from viscorough import AccuracyWarning, Load, Maxwell, indent, kinetics, reference, self_affine_disc
 from viscorough.viscous.integration.events import newtonian_events
-from viscorough.viscous.row import elements_in_contact, row_of_springs
+from viscorough.viscous.row import row_of_springs
 
 DISC = self_affine_disc(0.7, 65, rms=0.01, seed=1)
 
@@ -46,22 +46,6 @@ def test_row_of_a_curve_of_all_contact_events_is_exact():
     assert row.limit == np.inf, "complete contact goes on as a flat punch"
 
 
-def test_tangents_of_levels_meet_at_the_contact_events_between_them():
-    """Between these levels one element joins, so the number of elements is the number at the lower level."""
-    disc = self_affine_disc(0.7, 9, rms=0.01, seed=1)
-    events = newtonian_events(disc)
-    levels = 0.5 * (events.depth[1:] + events.depth[:-1])
-    curve = indent(disc, tolerance=1e-11, depths=levels)
-    row = row_of_springs(curve)
-    event = row.stiffness > 1e-9 * row.stiffness.sum()  # rounding makes further springs at the levels
-    np.testing.assert_allclose(row.gap[event], events.depth[: levels.size], rtol=1e-7)
-    jumps = np.diff(events.resistance[: levels.size], prepend=0.0)
-    np.testing.assert_allclose(row.stiffness[event], jumps, rtol=1e-6)
-    counts = row.contact_fraction[event] * disc.elements
-    np.testing.assert_allclose(counts, events.contact_count[: levels.size], rtol=1e-12)
-    np.testing.assert_array_equal(elements_in_contact(curve, 0.999 * levels[1:]), curve.contact_count[:-1])
-
-
 @pytest.mark.parametrize("size", [5, 7, 9, 11, 17])
 def test_row_and_motion_go_on_with_the_last_stiffness_after_complete_contact(size):
     """The tangents of the last two levels may meet at the last level within rounding. In a viscous medium Φ = F t/η."""
@@ -73,17 +57,6 @@ def test_row_and_motion_go_on_with_the_last_stiffness_after_complete_contact(siz
         motion = kinetics(curve, 3.0, 2.0, 2.0 / 3.0 * creep)
         np.testing.assert_allclose(motion.depth, last_depth + (creep - last_force) / last_stiffness, rtol=1e-12)
         np.testing.assert_allclose(motion.velocity, 1.5 / last_stiffness, rtol=1e-12)
-
-
-def test_contact_fraction_is_linear_in_the_depth_between_levels():
-    """A spring of a chord touches at the depth where the chord begins."""
-    curve = indent(DISC, tolerance=1e-2, until_fraction=0.8)
-    row = row_of_springs(curve)
-    first = curve.depth[np.argmax(np.diff(curve.contact_count) > 1)]
-    chords = row.gap >= first
-    assert np.count_nonzero(chords) > 100
-    expected = np.interp(row.gap[chords], curve.depth, curve.contact_count) / curve.elements
-    np.testing.assert_allclose(row.contact_fraction[chords], expected, rtol=1e-9)
 
 
 def test_stiffness_is_made_monotone():

@@ -65,21 +65,6 @@ def test_table_compares_u0_with_published_values_and_perssons_law(table):
     assert of(table, "u0", "0810.0950")["theirs_low"].isna().all()  # "of the order of h" is no number
 
 
-def test_sources_stay_without_numbers_of_this_study():
-    none = evidence().tables["scaling"][:0], INTERFACE[:0], REDUCTION[:0]
-    table = literature(*none, entries=ENTRIES, conventions=SHOWN)
-    assert len(table) == sum(max(len(entry["ours"]), 1) for entry in ENTRIES)
-    assert table["value"].isna().all()
-
-
-def test_every_source_states_what_was_read():
-    for entry in ENTRIES:
-        assert entry["when"] == ("before" if entry["year"] < 2013 else "after")
-        assert entry["sure"] in ("abstract", "the paper", "quoted")
-        assert entry["read"]
-        assert set(entry["ours"]) <= {"alpha", "u0", "gamma", "area", "gap"}
-
-
 # ---- Persson's law
 
 

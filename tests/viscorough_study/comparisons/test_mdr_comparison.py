@@ -5,24 +5,9 @@ import pytest
 from scipy import stats
 
 from viscorough.contact.loading_path import indent
-from viscorough.mdr import line_of_surface, reduce
+from viscorough.mdr import reduce
 from viscorough.surfaces.indenter import Indenter
-from viscorough.surfaces.self_affine import self_affine_square
 from viscorough_study.comparisons.mdr_comparison import COLUMNS, compare_reduction, is_power_of_ten, mean_gaps
-
-
-@pytest.mark.parametrize("n", [64, 65])
-def test_line_has_the_power_of_the_rings(n):
-    square = self_affine_square(0.6, n, seed=1)
-    line = line_of_surface(square, 0.5, 2)
-    assert (line.heights.shape, line.spacing) == ((n,), 0.5)
-    # Without corners all waves of the map are in rings up to the Nyquist wavenumber, so rms heights are equal.
-    assert line.heights.std() == pytest.approx(square.std(), rel=1e-12)
-    wave = np.cos(2 * np.pi * 3 * np.arange(n) / n)
-    line = line_of_surface(np.tile(wave, (n, 1)), 1.0, 3).heights
-    power = np.abs(np.fft.rfft(line)) ** 2
-    assert np.argmax(power) == 3
-    assert power[3] == pytest.approx(power.sum(), rel=1e-9)
 
 
 def test_comparison_has_ratios_of_stiffness_area_and_gap():

@@ -46,12 +46,6 @@ def test_model_without_an_error_at_a_hurst_exponent_does_not_count():
         assert rows.loc[0.2, "model"] == model
 
 
-def test_full_map_counts_with_the_error_that_it_states():
-    rows = chosen(grids())
-    assert rows.loc[0.1, "setting"] == "129 × 129 points, tolerance=0.1"
-    assert rows.loc[0.01, ["setting", "error", "reached"]].tolist() == ["513 × 513 points, tolerance=0.001", 0.04, 0]
-
-
 def test_means_are_answered_by_the_model_without_cost_where_it_suffices():
     rows = [(0.4, "law", np.nan, 0, 0.0, 0.03), (0.4, "grid", 65.0, 64, 2.0, 0.02), (0.4, "grid", 65.0, 1, 0.1, 0.3)]
     means = pd.DataFrame(rows, columns=["hurst", "model", "across", "surfaces", "processor_s", "error"])

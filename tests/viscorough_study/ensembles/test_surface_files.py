@@ -44,28 +44,6 @@ def test_surfaces_are_read_as_they_were_written(path):
     assert violations(path) == []
 
 
-def test_surfaces_are_made_written_and_read_one_after_the_other(path, monkeypatch):
-    """Each surface is dropped before the next is made, and an incomplete file never appears."""
-
-    def surfaces(number, fails):
-        for realization in range(number):
-            assert not path.exists()
-            yield surface("rough", realization, (30, 30))
-            (part,) = path.parent.iterdir()
-            assert part.suffix == ".part"
-        if fails:
-            raise ValueError("the last one fails")
-
-    with refused("the last one fails"):
-        write_surfaces([({}, 4, surfaces(3, fails=True))], path)
-    assert not list(path.parent.iterdir())
-    write_surfaces([({}, 4, surfaces(4, fails=False))], path)
-    sizes, created = [], Indenter.__post_init__
-    monkeypatch.setattr(Indenter, "__post_init__", lambda self: (sizes.append(self.heights.size), created(self))[1])
-    next(read_surfaces(path))
-    assert sizes == [900]
-
-
 def test_error_names_a_damaged_file(path):
     path.write_bytes(b"no NetCDF")
     with refused("surfaces.nc: not readable"):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from viscorough.viscous.integration.events import newtonian_events
-from viscorough_study.performance import measurement, methods, problems, timing
+from viscorough_study.performance import measurement, methods, problems
 
 
 @pytest.fixture(scope="module")
@@ -42,17 +42,3 @@ def test_every_method_has_a_row_and_a_small_error_at_a_fine_value(table, few_val
     limits["explicit, logarithmic steps"] = 0.05
     for row in table.itertuples():
         assert row.error < limits[row.method] if row.group != "model" else 0.01 < row.error < 1, row.method
-
-
-def test_slow_methods_are_not_measured_at_finer_values(monkeypatch):
-    def run(problem, seconds):
-        calls.append(seconds)
-        return problem.velocity, 0
-
-    calls, sphere = [], problems.named_problem("sphere", 17, 3)
-    monkeypatch.setattr(timing, "timed", lambda function: (function(), calls[-1], calls[-1]))
-    slow = replace(methods.METHODS[1], name="slow", values=(0.0, 0.6, 0.7), run=run)
-    small, rough = replace(slow, largest=16), replace(slow, rough_only=True)
-    table = measurement.measure(sphere, 1, longest=0.6, methods=[small, rough, slow])
-    assert table["value"].tolist() == [0.0, 0.6]
-    assert calls == [0.0, 0.6, 0.0]  # the slow method is not repeated, either

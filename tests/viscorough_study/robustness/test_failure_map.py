@@ -1,11 +1,9 @@
 """The failure map on a reduced set of cases: exact methods hold or refuse, and every failure is noticed."""
 
 import numpy as np
-import pandas as pd
 import pytest
 
 from viscorough.surfaces.self_affine import self_affine_disc
-from viscorough_study.robustness import failure_map as module
 from viscorough_study.robustness.failure_map import COLUMNS, failure_map
 from viscorough_study.robustness.outcomes import VERDICTS, wrong_without_warning
 from viscorough_study.robustness.stress_cases import StressCase, stress_cases
@@ -19,12 +17,6 @@ REFUSED = {"negative for a while", "1e-14"}
 def table():
     cases = stress_cases(np.random.SeedSequence(3), 9, (9,), hurst_min=0.4)
     return failure_map(cases)
-
-
-def test_contact_grows_from_the_first_to_the_last_depth_of_a_case():
-    for case in stress_cases(np.random.SeedSequence(3), 9, (9,), hurst_min=0.4):
-        first, last = case.fractions
-        assert 0 < first < last, case.name
 
 
 def test_every_cell_has_a_number_and_a_verdict_and_nothing_fails_unnoticed(table):
@@ -69,10 +61,3 @@ def test_a_failure_that_users_are_not_told_of_is_unnoticed():
     assert list(table.columns) == list(COLUMNS)
     assert table["verdict"].tolist() == ["unnoticed"]
     assert wrong_without_warning(table) == (0, 1)
-
-
-def test_a_run_warns_of_unnoticed_failures_only(monkeypatch, caplog):
-    failing = pd.DataFrame({"case": VERDICTS, "method": "path", "error": 0.5, "verdict": VERDICTS})
-    monkeypatch.setattr(module, "failure_map", lambda cases: failing)
-    module.map_failures(seed=1, across=9, grids=(9,), hurst_min=0.4)
-    assert [record.message for record in caplog.records] == ["unnoticed: path fails unnoticed, error 0.5"]

@@ -3,7 +3,6 @@
 import subprocess
 
 import pandas as pd
-import pytest
 
 from viscorough_study.run.kernels import KERNELS_BENCHMARK, compile_once
 from viscorough_study.run.rule_costs import rule_costs
@@ -21,16 +20,3 @@ def test_solvers_are_compiled_again_only_for_another_digest(tmp_path, monkeypatc
     costs = rule_costs({"compile_kernels": [KERNELS_BENCHMARK]})
     assert costs[["rule", "jobs", "memory_mb"]].to_numpy().tolist() == [["compile_kernels", 1, 0.0]]
     assert pd.read_csv(KERNELS_BENCHMARK, sep="\t")["s"].item() >= 0
-
-
-def test_failed_compilation_is_repeated(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / ".snakemake").mkdir()
-
-    def fail(command, check):
-        raise subprocess.CalledProcessError(1, command)
-
-    monkeypatch.setattr(subprocess, "run", fail)
-    for _ in range(2):
-        with pytest.raises(subprocess.CalledProcessError):
-            compile_once("digest")

@@ -103,8 +103,3 @@ def test_relative_imports_are_refused(project):
     (project / "src/viscorough/deep/parts.py").write_text("from . import solver\n")
     with pytest.raises(ValueError, match="relative imports are not followed"):
         digests(project)
-
-
-def test_functions_that_a_script_imports_by_name_count(project):
-    edit = ("src/viscorough/deep/solver.py", "(x, 3)", "(x, 4)")
-    assert "nothing" in changed_by(project, *edit, "viscorough.deep.solver.solve")

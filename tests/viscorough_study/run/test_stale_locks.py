@@ -1,7 +1,5 @@
 """Locks of killed runs are removed; locks of living runs are kept."""
 
-import errno
-import fcntl
 import os
 import subprocess
 import sys
@@ -66,24 +64,3 @@ def test_locks_are_kept_while_a_job_of_a_killed_run_lives(tmp_path, monkeypatch,
     assert capfd.readouterr().err == ""
     os.close(remove_stale_locks(unlock=True))
     assert not lock.exists()
-
-
-def test_locks_that_cannot_be_judged_are_kept(tmp_path, monkeypatch):
-    """Some network file systems have no locks of the operating system."""
-    monkeypatch.chdir(tmp_path)
-    lock = tmp_path / ".snakemake/locks/0.input.lock"
-    lock.parent.mkdir(parents=True)
-    lock.touch()
-
-    def without_locks(*_):
-        raise OSError(errno.ENOLCK, "No locks available")
-
-    monkeypatch.setattr(fcntl, "flock", without_locks)
-    assert remove_stale_locks() is None
-    assert lock.exists()
-
-
-def test_folder_that_cannot_be_made_is_no_error(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / ".snakemake").touch()
-    assert remove_stale_locks() is None

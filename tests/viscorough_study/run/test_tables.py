@@ -6,7 +6,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from support.command_line import python
 from support.contract import refused
 from support.workflow import load_script
 from viscorough_study.run.tables import read_table, split_table, write_table
@@ -67,8 +66,3 @@ def test_missing_texts_are_read_as_requested(tmp_path):
     assert read_table(tmp_path / "fits.csv")["source"].isna().tolist() == [True, True]
     texts = read_table(tmp_path / "fits.csv", keep_default_na=False, na_values=[""])
     assert texts["source"].tolist()[1] == "NA"
-
-
-def test_reading_imports_no_xarray():
-    """Jobs that draw a figure only read tables; the import would take a sixth of their time to start."""
-    python("-c", "import sys, viscorough_study.run.tables; assert 'xarray' not in sys.modules")

@@ -2,13 +2,12 @@
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from support.contract import refused
 from support.marching import evented, stepped
 from support.media import SPRINGS_AND_DASHPOTS as MEDIA
-from viscorough import Indenter, Load, indent, kinetics, march, reference, self_affine_disc
+from viscorough import Indenter, Load, indent, kinetics, march, self_affine_disc
 from viscorough.basics.errors import ConvergenceError
 from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Springpot
 
@@ -165,31 +164,6 @@ def test_a_newtonian_indenter_rests_in_its_imprint():
 
 
 # ---- the sphere
-
-
-def test_sphere_in_and_out_follows_lee_and_radok_and_ting():
-    """While it is moved out of a Maxwell medium, contact and force equal those at an earlier time t₁ (Ting 1966).
-
-    The time t₁ follows from exp(−(t − t₁)/τ) = 2 exp(−(t − t_m)/τ) − 1, with the time t_m of the turn.
-    """
-    medium, speed, turn = MEDIA["maxwell"], 0.1, 1.0
-    sphere, tau = reference.sphere(1.0), medium.relaxation.times[0]
-    indenter = sphere.indenter(25, 1.0)
-    times = np.linspace(0, 2, 81)
-    result = stepped(indenter, medium, times, depth=speed * np.minimum(times, 2 * turn - times))
-    assert result.receding_from == pytest.approx(times[41])
-    for k in (20, 40, 44, 52):
-        time = times[k]
-        earlier = time + tau * np.log(2 * np.exp(-(time - turn) / tau) - 1) if time > turn else time
-
-        def rate(s, time=time):
-            return medium.relaxation_modulus(time - s) * speed * sphere.stiffness(speed * s)
-
-        assert result.force[k] == pytest.approx(quad(rate, 0, earlier)[0], rel=0.01)
-        radius = sphere.contact_radius(speed * earlier)
-        touching = np.pi * radius**2 / indenter.spacing**2
-        assert result.contact_count[k] == pytest.approx(touching, abs=4 * radius / indenter.spacing)
-    assert result.force[-1] == 0
 
 
 # ---- refusals

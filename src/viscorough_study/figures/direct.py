@@ -5,34 +5,41 @@ import numpy as np
 from viscorough_study.figures import style
 from viscorough_study.run.readable import readable
 
+HALF = 0.36  # half the width of the strip of an indenter, of which each has the width 1
+
 
 @style.figure
 def plot_direct(table):
-    """Draw the ratio of viscous to elastic depth, by direct integration and by Eq. 8, against the elements in contact.
+    """Draw the ratio of viscous to elastic depth, by direct integration and by Eq. 8, for each indenter.
 
-    Each indenter has a panel. A text in the panel states the largest deviation of the ratio by direct integration
-    from 1.
+    In the strip of an indenter, the number of elements in contact grows from left to right. A text below it states the
+    largest deviation of the ratio by direct integration from 1.
     table : table of comparisons.direct_integration
     """
-    cases = list(table["case"].unique())
-    layout = {"columns": min(3, len(cases)), "height": 42, "rest": 16, "xlabel": "elements in contact"}
-    figure, panels = style.new_panels(len(cases), **layout, sharex=True, sharey=True)
-    for axes, case in zip(panels, cases, strict=True):
-        rows = table[table["case"] == case]
-        factor, deviation = rows["with_gamma"].iloc[0], np.abs(rows["depth_ratio"] - 1).max()
-        axes.axhline(1, color=style.GREY, linewidth=0.8, zorder=1)
-        axes.axhline(factor, color=style.GREY, linestyle="--", zorder=1)
-        axes.plot(rows["contact_count"], rows["depth_ratio"], "o", color=style.BLACK, markersize=3.5)
-        axes.set(title=case, xscale="log")
-        axes.margins(y=0.15)
-        text = {"transform": axes.get_yaxis_transform(), "color": style.GREY, "ha": "right"}
-        axes.text(0.97, factor - 0.004, f"{factor:.3f}", va="top", **text)
-        axes.text(0.97, 1.004, f"largest deviation {readable(deviation)}", va="bottom", **text)
-    figure.supylabel("viscous depth over elastic depth")
-    handles = [
-        style.handle("direct integration in time", color=style.BLACK, marker="o", linestyle=""),
-        style.handle("exact correspondence", color=style.GREY, linestyle="-"),
-        style.handle(r"with the factor $1/\Gamma(2-\alpha)$, Eq. 8", color=style.GREY, linestyle="--"),
-    ]
-    figure.legend(handles=handles, loc="outside lower center", ncols=3)
+    figure, axes = style.new_subplots(68)
+    axes.axhline(1, color=style.GREY, linewidth=0.8, zorder=1)
+    names = []
+    for place, (case, rows) in enumerate(table.groupby("case", sort=False)):
+        counts, ratios, factor = np.log(rows["contact_count"]), rows["depth_ratio"], rows["with_gamma"].iloc[0]
+        inside = place + HALF * (2 * (counts - counts.min()) / max(np.ptp(counts), 1e-9) - 1)
+        axes.plot(inside, ratios, "o", color=style.BLUE, markersize=3.5)
+        axes.plot([place - HALF, place + HALF], [factor, factor], color=style.VERMILION, linewidth=2)
+        text = {"xytext": (0, 4), "textcoords": "offset points", "ha": "center"}
+        axes.annotate(f"{factor:.3f}", (place, factor), color=style.VERMILION, **text)
+        elements, deviation = style.count_text(rows["contact_count"]), readable(np.abs(ratios - 1).max())
+        names.append(f"{case}\n{elements}\n{deviation}")
+    axes.set_xticks(range(len(names)), names)
+    axes.set(ylabel="viscous depth over elastic depth")
+    axes.set_xlabel("indenter; elements in contact, from left to right; largest deviation of direct integration from 1")
+    axes.margins(y=0.12)
+    axes.tick_params(axis="x", length=0)
+    figure.legend(
+        handles=[
+            style.handle("direct integration in time", color=style.BLUE, marker="o", linestyle=""),
+            style.handle("correspondence: 1", color=style.GREY, linewidth=0.8),
+            style.handle(r"with the factor $1/\Gamma(2-\alpha)$, Eq. 8", color=style.VERMILION, linewidth=2),
+        ],
+        loc="outside upper center",
+        ncols=3,
+    )
     return figure

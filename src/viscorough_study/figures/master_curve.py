@@ -110,4 +110,12 @@ def _draw_ratio(axes, curve, hurst, windows, look, above):
     if part.any():
         first = np.flatnonzero(part)[0]
         where, align = ((0, 4), "bottom") if above else ((1, -4), "top")
-        axes.annotate(f"{hurst:g}", (curve.x[first], ratio[first]), where, textcoords="offset points", va=align, **look)
+        axes.annotate(
+            f"{hurst:g}",
+            (curve.x[first], ratio[first]),
+            where,
+            textcoords="offset points",
+            va=align,
+            **look,
+            **style.HALO,
+        )

@@ -25,10 +25,9 @@ def plot_speed(means, other_solvers):
         viscorough
     """
     figure = style.new_figure(90)
-    mean, race = figure.subplots(1, 2, width_ratios=(1.5, 1))
+    mean, race = figure.subplots(1, 2, width_ratios=(1.25, 1))
     velocity = means[means["quantity"] == "velocity"]
     hurst = _nearest(velocity["hurst"], SHOWN)
-    mean.set_title(f"(a) Mean of many surfaces, $H$ = {hurst:g}, $X$ = {X[0]:g} to {X[1]:g}")
     _draw_mean(mean, velocity[velocity["hurst"] == hurst], velocity[velocity["model"] == LAW])
     _draw_race(race, other_solvers)
     return figure
@@ -45,23 +44,22 @@ def _draw_mean(axes, rows, law):
         axes.text(0.5, 0.5, "no mean in this range of X", transform=axes.transAxes, ha="center", color=style.GREY)
         return
     grids = timed[timed["model"] == GRID]
+    ends = []
     for (across, curve), color in zip(grids.groupby("across"), GRIDS, strict=False):
         axes.plot("processor_s", "error", "o-", data=curve, color=color, markersize=3)
-        finest = across == grids["across"].max()
-        text = f"discs, {across:g} × {across:g}" if finest else f"{across:g} × {across:g}"
-        place = {"xytext": (4, 0), "va": "center" if finest else "top", "color": color}
-        axes.annotate(text, tuple(curve[["processor_s", "error"]].iloc[-1]), textcoords="offset points", **place)
-    for (model, marker), va in zip(LINES.items(), ("top", "bottom"), strict=True):
+        text = f"{across:g} × {across:g}"
+        ends.append((f"discs, {text}" if across == grids["across"].max() else text, curve, color))
+    for model, marker in LINES.items():
         if len(curve := timed[timed["model"] == model]):
             axes.plot("processor_s", "error", marker=marker, data=curve, color=style.GREY, markersize=3)
-            place = {"xytext": (-5, 0), "ha": "right", "va": va, "color": style.GREY}
-            axes.annotate(model, tuple(curve[["processor_s", "error"]].iloc[0]), textcoords="offset points", **place)
-    reference = timed["reference_error"].iloc[0]
+            ends.append((model, curve, style.GREY))
+    number, hurst, reference = style.count_text(timed["surfaces"]), *timed[["hurst", "reference_error"]].iloc[0]
+    axes.set_title(f"(a) Mean of {number} surfaces, $H$ = {hurst:g}, $X$ = {X[0]:g} to {X[1]:g}")
     errors = law["error"].dropna()
     bottom = 0.6 * min(timed["error"].min(), reference, errors.min() if len(errors) else np.inf)
     axes.set(xscale="log", yscale="log", xlabel="processor time (s)", ylabel="error of the mean velocity")
     axes.set_ylim(bottom, 1.5 * timed["error"].max())
-    axes.set_xlim(timed["processor_s"].min() / 30, timed["processor_s"].max() * 60)
+    axes.set_xlim(timed["processor_s"].min() / 30, timed["processor_s"].max() * 2)
     axes.set_yticks(ERRORS, [f"{100 * error:g} %" for error in ERRORS])
     axes.axhspan(bottom, reference, color=style.PALE, linewidth=0, zorder=0)
     edge = axes.get_yaxis_transform()
@@ -70,10 +68,8 @@ def _draw_mean(axes, rows, law):
         axes.plot(np.full(errors.size, LEFT), errors, "D", color=style.VERMILION, transform=edge, clip_on=False)
         axes.annotate("law, every $H$", (LEFT, errors.max()), (7, -2), xycoords=edge, textcoords="offset points",
                       color=style.VERMILION)  # fmt: skip
-    number = style.count_text(timed["surfaces"])
-    note = f"symbols: {number} surfaces\nlines: $\\sqrt{{b^2 + s^2/n}}$ with the\ndeviation $b$ of the model and"
-    note += "\nthe scatter $s$ of surfaces,\nboth measured"
-    axes.text(0.98, 0.98, note, transform=axes.transAxes, ha="right", va="top", color=style.GREY)
+    ends = [(text, *curve[["processor_s", "error"]].iloc[-1], color) for text, curve, color in ends]
+    style.label_ends(axes, ends, gap=0.05)
 
 
 def _draw_race(axes, other_solvers):

@@ -14,6 +14,7 @@ import pandas as pd
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
 from matplotlib.style import context
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator
 from PIL import Image  # matplotlib depends on Pillow, so it is installed
@@ -39,6 +40,7 @@ ORANGE, VERMILION, PURPLE = "#e69f00", "#d55e00", "#cc79a7"
 
 SERIES_COLORS = (BLUE, VERMILION, GREEN, PURPLE, BLACK, SKY_BLUE, ORANGE)
 SERIES_MARKERS = "osD^v<>ph*X"
+HALO = {"path_effects": [withStroke(linewidth=2, foreground="white")]}  # of texts that may lie on lines
 DASHED, DASH_DOTTED, DOTTED = (0, (6, 1.5)), (0, (6, 1, 1, 1)), (0, (1.5, 1))
 # `hurst_looks` assigns these markers and line styles to the Hurst exponents 0, 0.6, 0.1, 0.7, ..., 0.5, in this order.
 HURST_MARKERS = "X^o>P*vDs<p"
@@ -237,6 +239,29 @@ def hurst_handles(looks, **changes):
     looks : {Hurst exponent: line properties}; changes : line properties of all entries, which override `looks`
     """
     return [handle(f"$H={hurst:g}$", **(look | changes)) for hurst, look in looks.items()]
+
+
+def label_ends(axes, ends, gap):
+    """Write labels right of the axes, and join each by a thin line to the end of its curve.
+
+    Labels are at the heights of the ends, or moved apart. Call this function last: the limits of the axes are kept.
+
+    ends : list of (label, x, y, color)
+    gap : least distance of two labels, as a share of the height of the axes
+    """
+    axes.autoscale(False)
+    to_share = axes.transScale + axes.transLimits
+    heights = np.array([to_share.transform((x, y))[1] for _, x, y, _ in ends])
+    order, steps = np.argsort(heights, kind="stable"), gap * np.arange(len(ends))
+    # Move labels only up, or only down, until they are apart; the mean of both moves them least.
+    upward = np.maximum.accumulate(heights[order] - steps) + steps
+    downward = np.minimum.accumulate((heights[order] - steps)[::-1])[::-1] + steps
+    for place, height in zip(order, (upward + downward) / 2, strict=True):
+        label, x, y, color = ends[place]
+        arrow = {"arrowstyle": "-", "linewidth": 0.4, "color": color, "shrinkA": 1, "shrinkB": 2}
+        arrow["relpos"] = (0, 0.5)  # it begins at the left end of the label
+        look = {"textcoords": "axes fraction", "color": color, "va": "center", "arrowprops": arrow}
+        axes.annotate(label, (x, y), (1.06, height), **look)
 
 
 def draw_band(axes, rows, name, color, alpha=0.15):

@@ -109,13 +109,21 @@ def embedded_png(content):
 
 
 def caption(text, conventions):
-    """Return a caption of Snakemake's report as HTML.
+    """Return a caption of Snakemake's report as HTML: (its first paragraph, the others).
+
+    The first paragraph says what a reader sees in the figure, and the others how the figure was made.
 
     text : reStructuredText of the caption, with placeholders for conventions
     conventions : settings for choices that the paper leaves open; they replace the placeholders
     """
     snakemake = {"params": {"options": {"conventions": conventions}}}
     text = jinja2.Template(text, undefined=jinja2.StrictUndefined).render(snakemake=snakemake)
+    seen, _, details = text.partition("\n\n")
+    return _html(seen), _html(details)
+
+
+def _html(text):
+    """Return reStructuredText as HTML."""
     # Files docutils.conf of the user, which would change captions unseen, are ignored.
     options = {"report_level": 2, "halt_level": 2, "_disable_config": True}
     parts = publish_parts(text, writer="html5", settings_overrides=options)

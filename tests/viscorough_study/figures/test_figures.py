@@ -13,6 +13,7 @@ from viscorough_study.figures.exponent import SHIFT, plot_exponent
 from viscorough_study.figures.master_curve import plot_master_curve
 from viscorough_study.figures.media import plot_media
 from viscorough_study.figures.reduction import plot_reduction
+from viscorough_study.figures.surfaces import plot_surfaces
 from viscorough_study.figures.validation import plot_validation
 from viscorough_study.fits.conventions import READINGS, fits
 
@@ -62,3 +63,16 @@ def test_master_curve_is_bold_in_region_b_of_each_reading(pooled, lines, scaling
             inside = kept & (windows.x_low[hurst] * 0.999 < X) & (windows.x_high[hurst] * 1.001 > X)
             np.testing.assert_allclose(bold.get_xydata(), np.transpose([X, expected])[inside], rtol=1e-9)
             assert bold.get_linewidth() > 2 * thin.get_linewidth()
+
+
+def test_surfaces_are_brighter_where_higher_and_lit_from_the_upper_left():
+    """Rows are drawn from bottom to top."""
+    place = np.arange(33) - 16.0
+    distance = np.hypot(place, place[:, None])
+    hill = np.where(distance < 16, 2 - distance / 4, np.nan)
+    (image,) = plot_surfaces([(0.5, hill, 1 / 33)]).axes[0].images
+    grey = image.get_array()[..., :3] @ (0.3, 0.6, 0.1)
+    left, right, lower, upper = grey[16, 6], grey[16, 26], grey[6, 16], grey[26, 16]
+    assert min(left, upper) > max(right, lower)
+    assert grey[16, 14] > left
+    assert (image.get_array()[np.isnan(hill), 3] == 0).all()

@@ -6,7 +6,7 @@ from matplotlib import colormaps, rc_context
 from matplotlib.figure import Figure
 from PIL import Image
 
-from viscorough_study.figures.style import figure, save_figure
+from viscorough_study.figures.style import figure, label_ends, save_figure
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -35,3 +35,14 @@ def test_colour_maps_keep_their_colours(tmp_path):
         colours = {color for _, color in picture.convert("RGB").getcolors(2**24)}
     expected = {tuple(color) for color in colormaps["viridis"](np.arange(256), bytes=True)[:, :3].tolist()}
     assert expected <= colours
+
+
+@pytest.mark.parametrize("heights", [[0.5, 0.52, 0.51], [1.0, 1.0, 1.0], [0.0, 0.9, 0.95]])
+def test_labels_of_ends_keep_their_order_and_do_not_overlap(heights):
+    axes = Figure().subplots()
+    axes.set_ylim(0, 1)
+    label_ends(axes, [(f"{height}", 1.0, height, "black") for height in heights], gap=0.1)
+    shown = np.array([text.xyann[1] for text in axes.texts])
+    assert [text.get_text() for text in axes.texts] == [f"{height}" for height in sorted(heights)]
+    assert (np.diff(shown) > 0.099).all()
+    assert np.abs(shown - sorted(heights)).max() < 0.11

@@ -2,6 +2,7 @@
 
 import importlib.metadata
 import re
+from pathlib import Path
 
 import click
 import numpy.typing
@@ -120,10 +121,28 @@ def _lower_indices(_app, doctree):
         text.parent.replace(text, new)
 
 
+# The page of the results, if the workflow has made it, becomes a page of the site.
+_RESULTS = Path(__file__).resolve().parents[1] / "results/index.html"
+
+
+def _link_to_results(_app, page, source):
+    if page == "index" and _RESULTS.exists():
+        source[0] = source[0].replace("`results/index.html`", "<a href='results/index.html'>`results/index.html`</a>")
+
+
+def _copy_results(app, error):
+    if error is None and _RESULTS.exists():
+        page = _RESULTS.read_text("utf-8").replace("../docs/index.md", "../index.html")
+        (Path(app.outdir) / "results").mkdir(exist_ok=True)
+        (Path(app.outdir) / "results/index.html").write_text(page.replace("../README.md", "../index.html"), "utf-8")
+
+
 def setup(app):
     app.add_html_math_renderer("mathml", (_visit_math, None), (_visit_math, None))
     app.add_directive("command-help", CommandHelp)
     app.connect("source-read", _link_to_pages)
+    app.connect("source-read", _link_to_results)
+    app.connect("build-finished", _copy_results)
     app.connect("doctree-read", _lower_indices)
     app.connect("autodoc-process-signature", _shorten_types)
     app.connect("autodoc-skip-member", _skip_tuple_fields)

@@ -10,7 +10,7 @@ from viscorough.basics.units import Quantity
 from viscorough.cli import files, messages, options, surface_options
 
 
-@click.command(short_help="Pressure, gap and contact at given forces or depths.")
+@click.command(cls=options.Command, short_help="Pressure, gap and contact at given forces or depths.")
 @surface_options.heights_input()
 @options.output("FILE")
 @click.option("--force", type=options.Increasing("N"), help="Force, or several: F/G, or F with a modulus.")

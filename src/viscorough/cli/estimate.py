@@ -15,7 +15,10 @@ if TYPE_CHECKING:
     from viscorough.law.estimate import Estimate
 
 
-@click.command(short_help="Depth and velocity of a self-affine surface by the calibrated law, without a simulation.")
+@click.command(
+    cls=options.Command,
+    short_help="Depth and velocity of a self-affine surface by the calibrated law, without a simulation.",
+)
 @click.option("--hurst", type=options.PositiveNumber(1), required=True, help="Hurst exponent H, from 0.1 to 1.")
 @click.option("--rms", type=options.QuantityOption("m"), required=True, help="Rms height h of the surface.")
 @click.option("--diameter", type=options.QuantityOption("m"), required=True, help="Diameter L of the indenter.")

@@ -10,7 +10,7 @@ from viscorough.cli import files, messages, options
 from viscorough.io import suffixes
 
 
-@click.command(short_help="A random self-affine disc or line.")
+@click.command(cls=options.Command, short_help="A random self-affine disc or line.")
 @click.option("--hurst", type=click.FloatRange(0, 1), required=True, help="Hurst exponent H, from 0 to 1.")
 @click.option("--elements", type=click.IntRange(min=3), help="Disc of so many elements across its diameter.")
 @click.option("--points", type=click.IntRange(min=2), help="Line of so many points, instead of a disc.")

@@ -15,13 +15,11 @@ from viscorough.basics.units import Quantity, result_units
 from viscorough.cli import files, messages, options, surface_options
 
 
-@click.command(short_help="Loading curve of an indenter on an elastic half-space.")
+@click.command(cls=options.Command, short_help="Loading curve of an indenter on an elastic half-space.")
 @surface_options.heights_input()
 @options.output("CURVE.nc")
-@click.option(
-    "--depths", type=options.Increasing("m"), help="Levels at exactly these depths  [default: as the tolerance needs]"
-)
-@click.option("--forces", type=options.Increasing("N"), help="Levels at exactly these F/G, or F with a modulus.")
+@click.option("--depths", type=options.Increasing("m"), help="Levels at exactly these depths.")
+@click.option("--forces", type=options.Increasing("N"), help="Levels at exactly these F/G, or F if G is given.")
 @options.tolerance
 @options.grid_error
 @options.until(0.9)
@@ -47,8 +45,8 @@ def indent(
 
     HEIGHTS is a map of heights: a matrix (.npy, or text with one delimiter), NetCDF, or a binary file of an instrument,
     which needs pip install "viscorough[formats]". x runs along each row, y from row to row. Spacing and unit are read
-    from the file if it states them; a matrix needs --spacing and --unit. With --unit 1, heights, spacing and depths
-    are in one unit of length of your choice.
+    from the file if it states them; a matrix needs --spacing and --unit. A spacing without a unit is in the unit of
+    the heights. With --unit 1, heights, spacing and depths are in one unit of length of your choice.
 
     Larger is higher: the highest point touches first. Points that are nan lie outside the indenter.
 

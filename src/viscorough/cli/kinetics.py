@@ -17,7 +17,7 @@ _CORRESPONDENCE = (
 )
 
 
-@click.command(short_help="Penetration over time in any linear viscoelastic half-space.")
+@click.command(cls=options.Command, short_help="Penetration over time in any linear viscoelastic half-space.")
 @click.argument("curve", type=options.FILE, metavar="CURVE.nc")
 @options.force
 @options.force_history

@@ -13,15 +13,14 @@ from viscorough.cli import files, messages, options, surface_options
 METHODS = ("events", "implicit")
 
 
-@click.command(short_help="Penetration over time by direct integration.")
+@click.command(cls=options.Command, short_help="Penetration over time by direct integration.")
 @surface_options.heights_input()
 @options.output("KIN.nc")
 @click.option(
     "--method",
     type=click.Choice(METHODS),
     required=True,
-    help="events: exact from one contact event to the next, in a Newtonian medium; implicit: one contact problem per "
-    "time step, of second order, in every medium of springs and dashpots.",
+    help="By contact events or by time steps.",
 )
 @click.option("--force", type=options.QuantityOption("N"), help="Constant force F  [default: 1]")
 @click.option("--viscosity", type=options.QuantityOption("Pa s"), help="Shear viscosity  [default: 1]")
@@ -50,10 +49,12 @@ def march(
     """Integrate the viscous or viscoelastic problem directly in time, without using a loading curve.
 
     HEIGHTS and units are as for indent and kinetics. KIN.nc has the variables time, depth, velocity, force and
-    contact_fraction along the dimension "level", with one level for each time of --times or of the force history. The
-    medium must consist of springs and dashpots. This command is slow and serves to check the other commands. The method
-    events takes seconds for 3000 elements, its memory grows with the square of the number of elements, and it shows no
-    progress.
+    contact_fraction along the dimension "level", with one level for each time of --times or of the force history.
+
+    The method events is exact from one contact event to the next, in a Newtonian medium. It takes seconds for 3000
+    elements, its memory grows with the square of their number, and it shows no progress. The method implicit solves one
+    contact problem per time step, of second order, in every medium of springs and dashpots. Both are slow and serve to
+    check the other commands.
 
     \b
     Example:

@@ -1,9 +1,11 @@
 """Define the options that several commands share, and the types of their values."""
 
 import contextlib
+import inspect
 import itertools
 import math
 import re
+import shlex
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -19,6 +21,14 @@ from viscorough.io import suffixes
 _UNIT_WORD = re.compile(r"[^\W\d_][^\W_]*(?:[·*/^][^\W_]+)*")
 # Largest number of times in an option of the form FIRST:LAST:COUNT.
 _MOST_TIMES = 1_000_000
+
+
+class Command(click.Command):
+    """Command whose help shows the options after its first paragraph, and all further paragraphs after them."""
+
+    def __init__(self, name: str | None, *, help: str, **settings: Any) -> None:
+        first, _, others = inspect.cleandoc(help).partition("\n\n")
+        super().__init__(name, help=first, epilog=others, **settings)
 
 
 def require(condition: bool, text: str) -> None:
@@ -50,6 +60,8 @@ def _is_unit(text: str) -> bool:
 
 class PositiveNumber(click.FloatRange):
     """Type of options: a finite number larger than `above` and not larger than `maximum`, if there is a maximum."""
+
+    name = "number"
 
     def __init__(self, maximum: float | None = None, above: float = 0) -> None:
         super().__init__(above, maximum, min_open=True)
@@ -200,12 +212,25 @@ columns = click.option(
     help="Numbers of the columns, from 1, in files of times and forces or depths without headings.",
 )
 viscosity = click.option("--viscosity", type=QuantityOption("Pa s"), help="Shear viscosity of a Newtonian half-space.")
+
+
+def _refuse_viscosity(context: click.Context, parameter: click.Parameter, path: Path | None) -> Path | None:
+    """Raise BadParameter for --medium 1e6, where a viscosity is meant."""
+    with contextlib.suppress(ValueError):
+        if path is not None and not path.exists() and units.quantity(str(path)):
+            text = f"{path} is no file; for a viscosity, --viscosity {shlex.quote(str(path))} is needed"
+            raise click.BadParameter(text, context, parameter)
+    return path
+
+
 medium = click.option(
-    "--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium of the half-space, instead of --viscosity."
+    "--medium",
+    type=FILE,
+    metavar="MEDIUM.yaml",
+    callback=_refuse_viscosity,
+    help="Medium of the half-space, instead of --viscosity.",
 )
-grid_error = click.option(
-    "--grid-error", is_flag=True, help="Estimate the error that is due to the spacing of the map."
-)
+grid_error = click.option("--grid-error", is_flag=True, help="Estimate the error due to the map's spacing.")
 tolerance = click.option(
     "--tolerance", type=PositiveNumber(0.1), default=1e-3, help="Relative accuracy, 1e-12 or more."
 )
@@ -213,9 +238,10 @@ threads = click.option(
     "--threads",
     type=click.IntRange(1, 1024),
     default=1,
-    help="Threads of the processor; the result does not depend on them.",
+    metavar="N",
+    help="Threads; results do not depend on their number.",
 )
-_PROGRESS = "Show progress on standard error, after a second  [default: if it is a terminal]"
+_PROGRESS = "Show progress on standard error  [default: if it is a terminal]"
 progress = click.option("--progress/--no-progress", default=None, help=_PROGRESS)
 
 
@@ -234,7 +260,7 @@ def elastic_constants(command: Callable[..., Any]) -> Callable[..., Any]:
     ratio = PositiveNumber(0.5, above=-1)
     command = click.option("--poisson", type=ratio, help="Poisson ratio, with --young  [default: 0.5]")(command)
     command = click.option("--young", type=QuantityOption("Pa"), help="Young's modulus, instead of G.")(command)
-    text = "Shear modulus G of the incompressible half-space."
+    text = "Shear modulus G of the half-space."
     return click.option("--shear-modulus", type=QuantityOption("Pa"), help=text)(command)
 
 

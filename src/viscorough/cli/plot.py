@@ -8,7 +8,7 @@ from viscorough.cli import files, messages, options, surface_options
 from viscorough.io import suffixes
 
 
-@click.command(short_help="A figure of a surface, a curve, a motion or a contact.")
+@click.command(cls=options.Command, short_help="A figure of a surface, a curve, a motion or a contact.")
 @surface_options.heights_input("file")
 @options.output("FIGURE", allowed=suffixes.FIGURES)
 def plot(heights: surface_options.HeightsFile, output: Path) -> None:

@@ -149,26 +149,25 @@ def heights_input(argument: str = "heights") -> Callable[..., Any]:
         @click.option(
             "--spacing",
             metavar="DX[,DY]",
-            help="Distance between neighbouring points, from column to column and from row to row if they differ; "
-            "plain numbers are in the unit of the heights. Needed where the file states none.",
+            help="Distance between columns, and rows if it differs.",
         )
-        @click.option("--unit", metavar="UNIT", help="Unit of heights, such as um; needed where the file states none.")
-        @click.option("--scale", metavar="QUANTITY", help="Factor of the heights, such as 0.053 nm per count.")
-        @click.option("--channel", help="Name or number of the map to read from a file that holds several.")
+        @click.option("--unit", metavar="UNIT", help="Unit of heights, such as um.")
+        @click.option("--scale", metavar="QUANTITY", help='Factor of the heights, such as "0.053 nm".')
+        @click.option("--channel", metavar="NAME", help="Map to read, by name or number, of several.")
         @click.option("--nodata", metavar="VALUE", help="Values, such as -9999, of points not measured.")
         @click.option("--crop", metavar="X0:X1,Y0:Y1", help="Columns and rows to keep, from 0, ends excluded.")
-        @click.option("--flip", is_flag=True, help="Change the sign, for data in which larger is lower.")
+        @click.option("--flip", is_flag=True, help="Change the sign: in the data, larger is lower.")
         @click.option(
             "--detrend",
             type=click.Choice(["none", "mean", "plane", "sphere"]),
-            default="none",
-            help="Form to subtract, fitted by least squares; a sphere includes a plane.",
+            metavar="FORM",
+            help="Subtract the mean, plane or sphere  [default: none]",
         )
         @click.option(
             "--fill",
             type=click.Choice(["none", "harmonic"]),
-            default="none",
-            help="Heights for enclosed holes, from the Laplace equation.",
+            metavar="HOW",
+            help="Fill enclosed holes: harmonic  [default: none]",
         )
         @functools.wraps(command)
         def packed(**values: Any) -> Any:

@@ -13,6 +13,20 @@ from viscorough.io.netcdf import Content, Variable
 from viscorough.io.saving import Result, to_content
 from viscorough.io.suffixes import FIGURES, check_suffix
 
+
+class _Shown(Figure):
+    """Figure that pyplot does not know, and thus does not keep, before it is shown."""
+
+    def show(self, warn: bool = True) -> None:
+        """Show the figure in a window, or below the cell of a notebook; scripts wait until the window is closed."""
+        from matplotlib import pyplot
+
+        manager = pyplot.figure().canvas.manager
+        manager.canvas.figure = self  # type: ignore[union-attr]
+        self.set_canvas(manager.canvas)  # type: ignore[union-attr]
+        pyplot.show()
+
+
 # Metadata of figures have no dates, so that the same result gives the same file.
 _METADATA: dict[str, Any] = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
 _STYLE: dict[Any, Any] = {"font.size": 9, "savefig.dpi": 200, "svg.hashsalt": "viscorough"}
@@ -40,8 +54,8 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
     Returns
     -------
     Figure
-        Figure of matplotlib, in the units of the file; metres become mm, µm or nm. Maps have the first row at the top.
-        Of several contacts, the last is drawn. Loading curves have logarithmic axes.
+        Figure of matplotlib, which `.show()` shows, in the units of the file; metres become mm, µm or nm. Maps have the
+        first row at the top. Of several contacts, the last is drawn. Loading curves have logarithmic axes.
 
     Raises
     ------
@@ -59,7 +73,7 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
     suffix = "" if path is None else check_suffix(path, FIGURES)
     variables = (result if isinstance(result, Content) else to_content(result)).variables
     with mpl.rc_context(_STYLE):
-        figure = Figure(figsize=(4.6, 3.6), layout="constrained")
+        figure = _Shown(figsize=(4.6, 3.6), layout="constrained")
         axes = figure.subplots()
         maps = [name for name in _MAPS if name in variables and variables[name].dimensions[-2:] == ("y", "x")]
         curves = [each for each in _CURVES if set(each[:2]) <= set(variables)]

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from viscorough.basics.arrays import ReadOnlyArrays, ReadOnlyTuple, real_number
-from viscorough.basics.summaries import span, unit_power, with_unit
+from viscorough.basics.summaries import InNotebooks, span, unit_power, with_unit
 from viscorough.basics.types import Mask
 from viscorough.basics.units import in_metres, result_units, square_metres
 
@@ -42,7 +42,7 @@ class Patches(ReadOnlyTuple, _Patches):
 
 
 @dataclass(frozen=True)
-class Contact(ReadOnlyArrays):
+class Contact(InNotebooks, ReadOnlyArrays):
     """Contact of a rigid indenter with an elastic half-space at one depth, the result of `contact_at`.
 
     Arrays are copied and read-only.

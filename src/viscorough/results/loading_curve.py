@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from viscorough.basics import units
 from viscorough.basics.arrays import ReadOnlyArrays, increasing, read_only
-from viscorough.basics.summaries import span, unit_power
+from viscorough.basics.summaries import InNotebooks, span, unit_power
 from viscorough.basics.types import Array, Integers, Pair, Scalar
 
 # Allowed relative rounding error of forces and depths.
@@ -29,7 +29,7 @@ _GRID_QUANTITIES = ("grid_error", "force_grid_error", "area_change")
 
 
 @dataclass(frozen=True)
-class LoadingCurve(ReadOnlyArrays):
+class LoadingCurve(InNotebooks, ReadOnlyArrays):
     """Depth, force and tangent stiffness of a rigid indenter pressed into an elastic half-space, at successive levels.
 
     A level is a computed point of the curve: one contact. Arrays are copied and read-only. If the shear modulus G is

@@ -6,11 +6,11 @@ import numpy as np
 
 from viscorough.basics import units
 from viscorough.basics.arrays import ReadOnlyArrays
-from viscorough.basics.summaries import si_unit, span, with_unit
+from viscorough.basics.summaries import InNotebooks, si_unit, span, with_unit
 
 
 @dataclass(frozen=True)
-class Motion(ReadOnlyArrays):
+class Motion(InNotebooks, ReadOnlyArrays):
     """Motion of an indenter under a load. All arrays are read-only and have the shape (times,).
 
     Attributes
@@ -25,7 +25,8 @@ class Motion(ReadOnlyArrays):
     velocity : array
         Velocity v = du/dt [length/time]. If the velocity jumps at a time, this is the velocity just after the jump,
         except at the last time, and at the sample just before a step of the load. There it is the velocity just before
-        the jump.
+        the jump. On a map the velocity jumps whenever another element touches. While few elements touch, its graph is
+        therefore a staircase (`drawstyle="steps-post"` in matplotlib).
     contact_fraction : array
         Share of the elements of the indenter that are in contact.
     length_unit : str

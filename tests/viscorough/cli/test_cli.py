@@ -53,6 +53,14 @@ def test_errors_in_the_code_are_not_hidden():
         run_indent_as(lambda: 1 / 0)
 
 
+@pytest.mark.parametrize("name", cli.cli.commands)
+def test_help_shows_all_options_on_the_first_screen(capsys, monkeypatch, name):
+    monkeypatch.setenv("COLUMNS", "80")
+    assert cli.main([name, "--help"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert next(place for place, line in enumerate(lines) if "--help" in line) < 40
+
+
 # ---- real processes
 
 

@@ -95,6 +95,10 @@ MISTAKES = [
     (f"{KINETICS} --force '1 N' --viscosity 1", f"--force 1 N: {NO_UNIT}"),
     (f"{KINETICS} --force 1 --viscosity '1 Pa s'", f"--viscosity 1 Pa s: {NO_UNIT}"),
     (f"{KINETICS} --force 1 --medium none.yaml", "none.yaml: not readable (No such file or directory)"),
+    (
+        f"{KINETICS} --force 1 --medium '2 kPa s'",
+        "2 kPa s is no file; for a viscosity, --viscosity '2 kPa s' is needed",
+    ),
     (f"{KINETICS} --force 1 --medium medium.yaml -o link.nc", "would replace the medium"),
     (f"{KINETICS} --force-history force.csv --viscosity 1 -o force.csv", "would replace the force history"),
     (f"{KINETICS} --force 1 --viscosity 1 -o curve.nc", "would replace the curve"),

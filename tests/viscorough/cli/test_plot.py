@@ -4,6 +4,7 @@ import sys
 
 import numpy as np
 import pytest
+from matplotlib import pyplot
 from PIL import Image
 
 import viscorough
@@ -95,3 +96,26 @@ def test_maps_have_the_first_row_at_the_top():
     assert (axes.get_xlabel(), axes.get_ylabel(), colours.get_ylabel()) == ("x (µm)", "y (µm)", "height (nm)")
     np.testing.assert_allclose(axes.images[0].get_extent(), [-125, 125, 25, -25])
     assert axes.images[0].origin == "upper"
+
+
+def test_figures_can_be_shown(monkeypatch):
+    """A figure is known to pyplot only when it is shown, so that pyplot does not keep all figures of a script."""
+    shown = []
+    monkeypatch.setattr(pyplot, "show", lambda: shown.append(pyplot.gcf()))
+    figure = viscorough.plot(viscorough.Indenter(np.eye(5), 1.0))
+    assert pyplot.get_fignums() == []
+    figure.show()
+    pyplot.close("all")
+    assert shown == [figure]
+
+
+@pytest.mark.parametrize("with_matplotlib", [True, False])
+def test_notebooks_show_results_as_table_and_plot(monkeypatch, with_matplotlib):
+    if not with_matplotlib:
+        monkeypatch.delattr("viscorough.io.plotting")
+        monkeypatch.setitem(sys.modules, "viscorough.io.plotting", None)
+    curve = viscorough.indent(viscorough.Indenter(sphere_heights(17), 1.0, length_unit="um"))
+    html, (title, line, *_) = curve._repr_html_(), str(curve).splitlines()
+    name, depth = "depth u", line.split(", ")[0].removeprefix("depth u ")
+    assert html.startswith(f"<table><caption>{title}</caption><tr><td>{name}</td><td>{depth}</td></tr><tr>")
+    assert ('<img src="data:image/png;base64,iVBOR' in html) == with_matplotlib

@@ -24,11 +24,11 @@ def fine_grids_sentence(rows):
     >>> row = {"hurst": 0.1, "x_low": 1e-3, "across": 4097, "beta": 0.151, "beta_low": 0.115, "beta_high": 0.187}
     >>> rows = [{"hurst": 0.4, "finding": "within"}, row | {"finding": "open"}]
     >>> print(fine_grids_sentence(rows).replace("; ", ";\\n"))
-    On fine grids and at small X, β tends to H/(1 + H) within 0.03 at H = 0.4;
+    On fine grids and at small X, β comes within 0.03 of H/(1 + H) at H = 0.4;
     at H = 0.1 it is 0.15 ± 0.04 on 4097 at X = 0.001 to 0.01, and the limit is open.
     """
     within = [f"{row['hurst']:g}" for row in rows if row["finding"] == "within"]
-    parts = [f"β tends to H/(1 + H) within {TOLERANCE:g} at {f'H = {listed(within)}' if within else 'no H'}"]
+    parts = [f"β comes within {TOLERANCE:g} of H/(1 + H) at {f'H = {listed(within)}' if within else 'no H'}"]
     for row in rows:
         if row["finding"] != "within":
             half = (row["beta_high"] - row["beta_low"]) / 2

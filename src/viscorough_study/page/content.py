@@ -64,7 +64,11 @@ def in_short(shown, texts):
     """
     headings = {
         "Right": ("holds",),
-        "Holds in part, or in one reading of the paper": ("holds in A", "holds in B", "in part"),
+        "Holds in part, or in one of two readings of the paper (no reading gives all of it)": (
+            "holds in A",
+            "holds in B",
+            "in part",
+        ),
         "Undecided": ("undecided",),
         "Not found": ("not",),
     }

@@ -22,7 +22,7 @@ COLUMNS = {
     "group": ("kind of stress-test case", ""),
     "case": ("stress-test case", ""),
     "method": ("method", ""),
-    "error": ("largest relative error of the depth; 1 where there is no answer", "1"),
+    "error": ("largest factor by which the depth is too large or too small, less 1; 1 where a case is refused", "1"),
     "limit": ("largest error for which the method holds", "1"),
     "verdict": ("holds, model, stated, warned, refused or unnoticed", ""),
     "reason": ("messages to users", ""),
@@ -72,7 +72,9 @@ def _answer(case, solution, ratios):
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", AccuracyWarning)
         try:
-            error = float(np.abs(np.nan_to_num(ratios(case, solution), nan=0.0) - 1).max())
+            found = np.atleast_1d(ratios(case, solution))
+            factors = np.where(found > 0, np.maximum(found, 1 / np.where(found > 0, found, 1.0)), np.inf)
+            error = float(factors.max()) - 1
         except (ValueError, ConvergenceError, MemoryError) as reason:
             messages, refused = [str(reason)], True
     messages += [str(warning.message) for warning in caught if issubclass(warning.category, AccuracyWarning)]

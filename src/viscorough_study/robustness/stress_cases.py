@@ -11,6 +11,7 @@ from viscorough.surfaces.indenter import Indenter
 from viscorough.surfaces.self_affine import self_affine_disc
 
 NOT_SELF_AFFINE = "the indenter is no isotropic self-affine surface, which a line with its spectrum stands for"
+COMPLETE = "all elements touch: region (c), beyond the power law"
 ROLL_OFF = "the spectrum rolls off: there is no power law"
 
 
@@ -73,7 +74,7 @@ def _disc_cases(disc, usual, grids, hurst_min):
         fractions = (0.05, 0.5) if n < 65 else (30 / n**2, 300 / n**2)
         yield StressCase("grid", f"{n} elements across", disc(0.7, elements_across=n), 0.7, fractions, steps=64)
     yield StressCase("contact", "up to 2 elements", **usual, fractions=(1 / rough.elements, 2 / rough.elements))
-    yield StressCase("contact", "past all elements", **usual, fractions=(0.9, 1.1))
+    yield StressCase("contact", "past all elements", **usual, fractions=(0.9, 1.1), stated=COMPLETE)
     yield StressCase("units", "heights 1e-12, spacing 1e12", Indenter(1e-12 * rough.heights, 1e12 * rough.spacing), 0.7)
     yield StressCase("tolerance", "1e-14", **usual, tolerance=1e-14)
 

@@ -55,7 +55,10 @@ COLUMNS = {
     "title": ("the claim in a few words", ""),
     "kind": ("one of: " + ", ".join(KINDS), ""),
     "where": ("equation, section or figure of the paper", ""),
-    "reading": ("reading of the paper's surfaces, A or B; missing where the claim does not depend on it", ""),
+    "reading": (
+        "reading of the surfaces, A or B; missing where the claim is judged in A only, or depends on neither",
+        "",
+    ),
     "quantity": ("what the value is", ""),
     "case": ("Hurst exponent or part that the row is about", ""),
     "value": ("quantity by which the claim is judged", "1"),

@@ -158,7 +158,8 @@ def separation(evidence, tolerance):
     "with more, the slope of a curve does not tell its H. The bound was set with the curves in view",
     figure="regions",
     readings=True,
-    remark="Region (b) is short. Whether this test tells a power law from a bend is shown by the next claim.",
+    remark="Region (b) is short, and the test does not exclude a bend: the next claim applies it to a control. Slopes "
+    "are fitted wholly inside region (b), so that they do not reach its ends.",
 )
 def power_law(evidence, tolerance):
     """Test whether the slope of ln(vt/h) along ln X is constant in region (b) (viscorough_study.fits.local_slope).
@@ -287,7 +288,8 @@ def last_region(evidence, tolerance):
     reason="almost complete says at least nine tenths. Which deviation from the slope 1 is visible in Fig. 2 is "
     "assumed, so that two are tested",
     figure="regions",
-    remark="These are the shares where region (c) begins; more elements touch later. The rough interface and the body "
+    remark="These are the shares where region (c) begins; more elements touch later, and the shares at the end of the "
+    "curves are stated as well. The rough interface and the body "
     "behind it act as two springs in series, and the body decides the slope long before all elements touch.",
 )
 def complete_contact(evidence, tolerance):
@@ -301,12 +303,13 @@ def complete_contact(evidence, tolerance):
         for hurst, ensemble in evidence.whole.items():
             name = f"{hurst_name(hurst)}, slope 1 within {deviation:g}"
             if (first := start_of_line(ensemble, deviation)) is None:
-                yield judged(name, UNDEFINED, 1.0, None)
+                yield judged(name, UNDEFINED, np.nan, None)
                 continue
-            fractions = ensemble["contact_count"].values[:, first] / ensemble["elements"].item()
-            more = {"cases": len(SLOPES_OF_LINE) * len(evidence.whole)}
-            more["note"] = f"from X = {ensemble['x'].values[first]:.3g} on"
-            yield _mean_case(evidence, name, fractions, 1.0, (1 - tolerance, np.inf), **more)
+            shares, x = ensemble["contact_count"].values / ensemble["elements"].item(), ensemble["x"].values
+            last = _reached_by_all(ensemble)[-1]
+            note = f"from X = {x[first]:.3g} on; {shares[:, last].mean():.2f} at X = {x[last]:.3g}"
+            more = {"cases": len(SLOPES_OF_LINE) * len(evidence.whole), "note": note}
+            yield _mean_case(evidence, name, shares[:, first], np.nan, (1 - tolerance, np.inf), **more)
 
 
 def start_of_line(ensemble, deviation):

@@ -61,17 +61,20 @@ def follows_law(evidence, tolerance, fits):
 
 
 @claim(
-    title="on fine grids the exponent tends to H/(1 + H) from H = 0.4 on",
-    sentence="on fine grids and at small X the exponent tends to H/(1 + H) from H = 0.4 on; the paper states it for "
-    "its own grid",
+    title="on fine grids the exponent comes near H/(1 + H) from H = 0.4 on",
+    sentence="on fine grids and at small X the exponent comes within the tolerance of H/(1 + H) from H = 0.4 on; the "
+    "paper states it for its own grid",
     where="Eqs. 5 and 10",
     kind="beyond",
-    quantity="limit of β for an infinitely fine grid, in the decade of the smallest X; published results of `make "
-    "fine-grids`",
-    criterion="the interval of the limit lies within the tolerance of H/(1 + H), at every H from 0.4 on",
+    quantity="middle and ends of a bracket of the limit of β for an infinitely fine grid, in the decade of the "
+    "smallest X; published results of `make fine-grids`",
+    criterion="the whole bracket lies within the tolerance of H/(1 + H), at every H from 0.4 on",
     tolerance=0.03,
     reason="the tolerance of β on the paper's grid. The criterion was fixed before the surfaces that decide it were "
     "computed",
+    remark="The upper end of the bracket is that of β on the finest grid, and the lower end allows for all waves "
+    "beyond this grid; the middle is no estimate. The finest grid has 40 to 600 discs. Their intervals come from all "
+    "grids and were tested by simulation (coverage 95 %), so the rule on fewer than 80 realizations is not applied.",
     figure="fig4_exponent",
 )
 def exponent_limit(evidence, tolerance):

@@ -44,8 +44,9 @@ ONE_ELEMENT = 1 + 1e-9
 @claim(
     title="identities of the contact problem",
     sentence="the contact depends on the depth only, not on the history; it does not change if depth and rms height "
-    "are multiplied by one factor; force, viscosity, diameter and rms height enter by Ft/(ηhL) alone, so the "
-    "exponents depend on H only; and while “exactly one element” touches, the indenter moves at constant velocity",
+    "are multiplied by one factor; force, viscosity, diameter and rms height enter by Ft/(ηhL) alone, so on "
+    "one kind of surface and grid the exponents do not depend on them (how they depend on H, grid and reading is "
+    "judged above); and while “exactly one element” touches, the indenter moves at constant velocity",
     where="abstract, Secs. II and III",
     kind="identity",
     quantity="elements that differ, or largest relative difference",

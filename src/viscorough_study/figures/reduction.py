@@ -14,7 +14,7 @@ def plot_reduction(table):
     Bands are 95 % intervals of the means. The band in (e) contains 95 % of the correlations of unrelated pairs.
     table : table of viscorough_study.comparisons.mdr_comparison
     """
-    figure, panels = style.new_subplots(185, 3, 2, sharex=True)
+    figure, panels = style.new_subplots(125, 2, 3, sharex=True)
     stiffness, scatter, area, gap, correlation, force = panels.flat
     looks = style.hurst_looks(table["hurst"])
     for hurst, rows in table.groupby("hurst"):
@@ -38,8 +38,9 @@ def plot_reduction(table):
     ):
         axes.set(title=title, ylabel=label, xscale="log", yscale="linear" if axes is correlation else "log")
         axes.axhline(0 if axes is correlation else 1, color=style.GREY, linewidth=0.6)
-    correlation.set(xlabel="$X=F/(4GhL)$", ylim=(-1, 1))
-    force.set_xlabel("$X=F/(4GhL)$")
+    correlation.set_ylim(-1, 1)
+    for axes in panels[-1]:
+        axes.set_xlabel("$X=F/(4GhL)$")
     title = f"{style.count_text(table['realizations'])} discs and lines for each $H$"
     handles = style.hurst_handles(looks, marker="")
     figure.legend(handles=handles, loc="outside lower center", title=title, ncols=len(looks))

@@ -85,7 +85,8 @@
       const y = top + (i ? 0.5 : 0.12) * height; // the first label stands left of its line, the second right of it
       const x = self.valToPos(self.posToVal((y - top) / ratio, "y") / limit.ratio, "x", true);
       ctx.textAlign = i ? "left" : "right";
-      write(limit.label, x + (i ? 10 : -10) * ratio, y, "#4d5562");
+      const text = narrow() ? limit.label.replace(" in contact", "") : limit.label;
+      write(text, x + (i ? 10 : -10) * ratio, y, "#4d5562");
     });
     const first = values("hurst").map((hurst) => data.curves.findIndex((c, i) => c.hurst === hurst && self.series[i + 1].show));
     const drawn = first.filter((i) => i >= 0);

@@ -10,11 +10,12 @@ min_version("9.0")
 include: "workflow/rules/common.smk"
 
 
-# True unless another workflow, which uses this workflow as a module, has defined rules before: its first rule then
-# remains the default target. Not documented: the default target as an attribute.
-IS_DEFAULT = workflow.default_target is None
+# A plain path would be looked for in the working directory. Another workflow that uses this workflow as a module may
+# give settings, and this line is then left out; `complete` adds the default settings in any case.
+configfile: PROJECT / "config" / "config.yaml"
 
-# Not documented: the files that the settings come from. Messages on wrong settings and the page name them.
+
+# Not documented: the settings files of the command line. Messages on wrong settings and the page name them.
 SETTINGS_FILES = workflow.overwrite_configfiles
 settings, MEASURED = complete(config, SETTINGS_FILES)
 config.update(settings)
@@ -40,6 +41,13 @@ wildcard_constraints:
     format="png|pdf",
 
 
+rule all:
+    """Figures 1 to 4, the verdicts, speed against accuracy, stress tests, and the page of the results."""
+    input:
+        "results/index.html",
+        "results/tables/validation_passed.txt",
+
+
 # The chain from surfaces to the page. Each file uses the results of the files before it.
 include: "workflow/rules/surfaces.smk"
 include: "workflow/rules/curves.smk"
@@ -53,20 +61,7 @@ include: "workflow/rules/beyond.smk"
 
 
 onstart:
-    # Not documented: the scheduler. With its limit of jobs per second, which has no public way to be switched off,
-    # Snakemake 9.0 to 9.27 looks for ready jobs once a second for every job that has ended.
-    if workflow.local_exec:
-        workflow.scheduler.job_rate_limiter = None
     compile_once(SOURCES.digest(SOURCES.folder / "viscorough_study/run/kernels.py"))
-
-
-rule all:
-    """Figures 1 to 4, the verdicts, speed against accuracy, stress tests, and the page of the results."""
-    default_target: IS_DEFAULT
-    input:
-        rules.tabulate_rule_costs.input,
-        rules.tabulate_rule_costs.output,
-        rules.make_page.output,
 
 
 SOURCES.keep()

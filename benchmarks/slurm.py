@@ -37,7 +37,6 @@ TIMED = {
     "one_surface",
     "mean_accuracy",
     "sufficient_models",
-    "rule_costs",
     "speed",
     "index",
 }

@@ -15,7 +15,6 @@ from matplotlib.figure import Figure
 
 ROOT = Path(__file__).resolve().parents[1]
 PICTURE, SOURCE = ROOT / "docs/rules.png", "Description"
-OF_ALL = ("tabulate_rule_costs",)  # needs almost every rule
 # {stage: (names of its rules, or their beginnings; colour)} from left to right
 STAGES = {
     "surface generation": (("generate_", "prepare_"), "#cfe3f5"),
@@ -24,7 +23,7 @@ STAGES = {
     "fits and measurements": ((), "#f6d3bd"),  # all other rules that depend on no rule of their stage
     "comparisons and verdicts": ((), "#f6d3bd"),  # all other rules
     "figures": (("plot_",), "#e6d2ea"),
-    "page and costs, of all": (("make_", *OF_ALL), "#e4e4e4"),
+    "page": (("make_",), "#e4e4e4"),
 }
 FITS = list(STAGES).index("fits and measurements")
 
@@ -52,8 +51,7 @@ def columns(edges):
 
 
 def without_implied(edges):
-    """Return the edges that do not follow from others, without edges of rules that need almost every rule."""
-    edges = {(rule, then) for rule, then in edges if not then.startswith(OF_ALL)}
+    """Return the edges that do not follow from others."""
 
     def reached(rule):
         following = {then for before, then in edges if before == rule}

@@ -10,34 +10,27 @@ import re
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
-import pandas as pd
 from tqdm import tqdm
 
 from viscorough.io.atomic import check_output, reason
-from viscorough_study.run.paper_data import read_paper
-from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.run.stale_locks import REMOVED
 from viscorough_study.run.tables import read_table, split_table
 from viscorough_study.verdicts.claims import counted_verdicts
 
 OUTPUT = Path("results/run.log")
-PUBLISHED_COSTS = Path("resources/published/default_costs.csv")
 PASSED_ON = (REMOVED, "Compiling ")
 ASSUMED = {"ncols": 100, "nrows": 24}  # size of a terminal that states no width
-LOOK = {"bar_format": "{desc} |{bar}| {remaining} left", "smoothing": 0, "leave": False}
+LOOK = {"bar_format": "{desc} |{bar}| {elapsed}", "leave": False}
 
 
 class Progress:
-    """Read the lines that Snakemake prints, and show the progress on standard error if it is a terminal.
+    """Read the lines that Snakemake prints, and show the number of jobs on standard error if it is a terminal."""
 
-    seconds : pandas.Series, time per job of every rule [s] in an earlier run, from which the remaining time is
-        estimated. A rule that is not in the series is assumed to take the mean time.
-    """
-
-    def __init__(self, seconds):
-        self.seconds, self.planned, self.done, self.bar = seconds, 0.0, "", None
+    def __init__(self):
+        self.done, self.bar = "", None
 
     def read(self, line):
         """Update the progress from one line that Snakemake prints."""
@@ -45,18 +38,13 @@ class Progress:
             if match := re.fullmatch(r"total +(\d+)", line):
                 self.done = f"0 of {match[1]}"
                 silent = True if sys.stderr is None else None  # with None, tqdm shows progress on terminals only
-                self.bar = tqdm(total=self.planned, file=sys.stderr, disable=silent, **LOOK, **_width())
-            elif match := re.fullmatch(r"(\w+) +(\d+)", line):
-                self.planned += int(match[2]) * self._seconds_of(match[1])
+                self.bar = tqdm(total=int(match[1]), file=sys.stderr, disable=silent, **LOOK, **_width())
         elif match := re.fullmatch(r"Job \d+: (.*)", line):
             self.bar.set_description_str(f"{self.done}: {match[1]}")
-        elif match := re.fullmatch(r"Finished jobid: \d+ \(Rule: (\w+)\)", line):
-            self.bar.update(self._seconds_of(match[1]))
+        elif re.match(r"Finished jobid: ", line):
+            self.bar.update()
         elif match := re.match(r"\d+ of \d+(?= steps )", line):
             self.done = match[0]
-
-    def _seconds_of(self, rule):
-        return self.seconds.get(rule, self.seconds.mean())
 
 
 def run(command, output=OUTPUT):
@@ -69,8 +57,7 @@ def run(command, output=OUTPUT):
     command : list of the words of the command
     output : file for the output of Snakemake and its jobs
     """
-    costs = pd.read_csv(PUBLISHED_COSTS, index_col="rule")
-    progress = Progress(costs["share_s"] / costs["jobs"])
+    progress = Progress()
     try:
         output.parent.mkdir(parents=True, exist_ok=True)
         check_output(output)
@@ -161,23 +148,22 @@ def _error_in(log):
     return match[1] if match else "a job was ended, or failed before it wrote its log"
 
 
-def summary(results=Path("results"), paper=Path("resources/paper")):
-    """Return the last lines of a run: verdicts on the paper's own claims, times of run and paper, and the page."""
+def summary(seconds, results=Path("results")):
+    """Return the last lines of a run: verdicts on the paper's own claims, its time [s], and the page."""
     table = results / "tables/claims.csv"
     claims = counted_verdicts(read_table(table), "own")
     trial = "; trial scale, on which verdicts mean nothing" * split_table(table)[0]["trial"]
-    seconds = read_table(results / "tables/rule_costs.csv")["share_s"].sum()
-    theirs = read_paper(paper, "numbers")["boundary_elements"]["computing_time"]["value"]
     verdicts = ", ".join(f"{number} {verdict}" for verdict, number in claims)
     return [
         f"{sum(number for _, number in claims)} claims of the paper: {verdicts}{trial}",
-        f"It took {duration_text(seconds)}; the paper: {theirs}",
+        f"It took {seconds:.0f} seconds" if seconds < 100 else f"It took {seconds / 60:.1f} minutes",
         f"Open {results / 'index.html'} in a browser",
     ]
 
 
 if __name__ == "__main__":
+    start = time.monotonic()
     code = run(sys.argv[sys.argv.index("--") + 1 :])
     if not code and Path("results/index.html").is_file():
-        print("\n".join(summary()))
+        print("\n".join(summary(time.monotonic() - start)))
     sys.exit(code)

@@ -35,8 +35,6 @@ def quoted():
     yield "README.md", f"Eq. 12 must be multiplied by {constant}"
     verdict = VALUE.loc[("beta", "B", "H = 0.6"), "verdict"]
     yield "README.md", f"larger square leave the exponent at H = 0.6 {verdict}"
-    minutes = pd.read_csv(ROOT / "resources/published/default_costs.csv")["share_s"].sum() / 60
-    yield "README.md", f"several weeks in the paper, {minutes:.0f} minutes here"
 
 
 def test_sentence_on_fine_grids_is_the_same_everywhere():

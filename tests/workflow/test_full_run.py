@@ -1,7 +1,6 @@
 """Results of one full run of the small settings."""
 
 import re
-from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -55,14 +54,8 @@ def test_every_job_has_a_log_and_a_benchmark(finished_once):
 
     number = sum(jobs((finished_once / "run.log").read_text()).values())
     logs = stems("results/logs", ".log")
-    assert logs == stems("results/benchmarks", ".tsv") - {Path("compile_kernels")}
+    assert logs == stems("results/benchmarks", ".tsv")
     assert len(logs) == number
-    table = read_table(finished_once / "results/tables/rule_costs.csv").set_index("rule")
-    assert {"tabulate_rule_costs", "make_page"} & set(table.index) == set(), "they run after the others"
-    assert table["jobs"].sum() == number - 2 + 1, "and the compilation"
-    assert table.loc["indent_surfaces", "jobs"] == 2 + 2 + 2 + 2
-    assert (table["longest_s"] <= table["seconds"]).all()
-    assert table["seconds"].is_monotonic_decreasing
 
 
 def test_no_log_holds_a_warning(finished_once):
@@ -116,12 +109,8 @@ def test_combinations_are_in_real_units(finished_once):
         assert "spawn_key" in curves.attrs["settings"]
 
 
-def test_report_is_made_with_the_settings_of_the_results(finished):
-    """The report needs no number of cores, like --unlock and --summary. Other settings are refused in one line."""
-    output = snakemake(finished, "--report", "report.html", cores=None, fails=True)
-    assert output.splitlines()[-1].startswith("Error: results were not made with these settings and sources; run the")
-    assert "Traceback" not in output
-    assert not (finished / "report.html").exists()
+def test_report_needs_no_number_of_cores(finished):
+    """Like --unlock and --summary."""
     snakemake(finished, *TEST, "--report", "report.html", cores=None)
     page = (finished / "report.html").read_text()
     for text in ("fig4_exponent.png", "4 Conventions and validation"):

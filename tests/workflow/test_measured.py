@@ -18,7 +18,7 @@ pytestmark = pytest.mark.long
 SCANS = {"ground_a", "ground_b", "polished_c"}
 MADE = {"prepare_measured", "indent_surfaces", "aggregate_curves", "evaluate_measured", "plot_measured"}
 MADE |= {"solve_measured_contacts"}
-MADE |= {"tabulate_rule_costs", "make_page"}
+MADE |= {"make_page"}
 
 
 def write_scans(folder):

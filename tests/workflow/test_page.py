@@ -14,7 +14,6 @@ from support.page import BROWSER, Page, number_in, opened
 from support.workflow import ROOT, TABLES, TEST, merged, read_settings, snakemake
 from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.page.content import as_yaml
-from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.run.settings import changed_settings
 from viscorough_study.run.tables import read_table, split_table, write_table
 from viscorough_study.verdicts.claims import counted_verdicts, verdicts_of
@@ -134,15 +133,6 @@ def test_tooltip_of_every_number_names_its_rule_and_the_script(page):
 def test_page_marks_a_trial_run_and_shows_no_raw_values(page):
     assert "trial scale: its verdicts mean nothing." in page.text
     assert not re.search(r"\{['\"]|spawn_key|None|nan\b|dtype|<[a-z]", page.text.replace("nan marks points", ""))
-
-
-def test_page_compares_the_time_of_the_jobs_with_the_papers(finished_once, page):
-    costs = read_table(finished_once / "results/tables/rule_costs.csv")
-    assert costs["longest_s"].max() < costs["share_s"].sum() < costs["seconds"].sum()
-    assert (
-        f"Boundary elements: several weeks in the paper, {duration_text(costs['share_s'].sum())} here "
-        "with another algorithm, on this machine" in page.text
-    )
 
 
 def test_page_lists_all_versions_that_occur_in_the_results(finished):

@@ -47,8 +47,6 @@ class Terminal(io.StringIO):
 def run(tmp_path, monkeypatch):
     """Run a Python script instead of Snakemake, with its progress, and return the exit code."""
     monkeypatch.chdir(tmp_path)
-    (tmp_path / run_with_progress.PUBLISHED_COSTS).parent.mkdir(parents=True)
-    (tmp_path / run_with_progress.PUBLISHED_COSTS).write_text("rule,jobs,share_s\nindent,3,30\nplot,1,1\n")
     monkeypatch.setattr(signal, "signal", lambda *_: None)
     return lambda script: run_with_progress.run([sys.executable, "-c", script])
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from support.workflow import TEST, copy_kernels, copy_project, jobs, plan, snakemake
+from support.workflow import ROOT, TEST, copy_kernels, copy_project, jobs, plan, settings_file, snakemake
 from viscorough_study.run.tables import read_table
 
 
@@ -18,6 +18,15 @@ def test_large_scales_have_a_plan(unmade, name, indent_surfaces, reduce_lines):
     assert set(planned.values()) == {1}
     assert {"require_validation", "fit_scaling", "judge_claims", "make_page"} < set(planned)
     assert 2 * indent_surfaces + reduce_lines + sum(planned.values()) <= (90 if name == "config" else 300)
+
+
+def test_settings_are_found_from_any_folder(tmp_path):
+    """A file of settings is relative to the folder of the command, the default settings to the Snakefile."""
+    settings_file(tmp_path, "mine", hurst=[0.33])
+    here = ("--snakefile", ROOT / "Snakefile", "--directory", tmp_path / "out")
+    planned = plan(tmp_path, *here, "--configfile", "mine.yaml", "--", "curves")
+    assert planned == {"generate_discs": 4, "indent_surfaces": 4, "reduce_lines": 22}
+    assert plan(tmp_path, *here, "--", "curves")["indent_surfaces"] == 4 * 4
 
 
 @pytest.mark.long

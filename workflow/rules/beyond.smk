@@ -213,7 +213,7 @@ use rule plot_surfaces as plot_interface with:
         path=report(
             "results/figures/interface.{format}",
             caption="../report/figures/interface.rst",
-            category=category("8 Beyond the paper"),
+            category="8 Beyond the paper",
             labels={"result": "interface and punch in series", "kind": "figure"},
         ),
     log:
@@ -234,7 +234,7 @@ use rule plot_surfaces as plot_reduction with:
         path=report(
             "results/figures/reduction.{format}",
             caption="../report/figures/reduction.rst",
-            category=category("8 Beyond the paper"),
+            category="8 Beyond the paper",
             labels={"result": "MDR, surface by surface", "kind": "figure"},
         ),
     log:
@@ -255,7 +255,7 @@ use rule plot_surfaces as plot_media with:
         path=report(
             "results/figures/media.{format}",
             caption="../report/figures/media.rst",
-            category=category("8 Beyond the paper"),
+            category="8 Beyond the paper",
             labels={"result": "kinetics in other media", "kind": "figure"},
         ),
     log:
@@ -276,7 +276,7 @@ use rule plot_surfaces as plot_histories with:
         path=report(
             "results/figures/histories.{format}",
             caption="../report/figures/histories.rst",
-            category=category("8 Beyond the paper"),
+            category="8 Beyond the paper",
             labels={"result": "any history", "kind": "figure"},
         ),
     log:

@@ -10,14 +10,12 @@ since Snakemake 9.0.0 at the latest.
 import hashlib
 import importlib.util
 import os
-import re
 import sys
 from functools import cache
 from pathlib import Path
 
 import yaml
 from snakemake import persistence
-from snakemake.io import apply_wildcards, get_wildcard_names
 
 # Folder of this workflow, found from this file: a workflow that uses this workflow as a module is in another folder.
 # Not documented: `current_basedir`. `workflow.source_path`, which is documented, returns the path of a copy of the file.
@@ -104,7 +102,7 @@ try:
     use_packages_of_checkout()
     from viscorough_study.fits.fine_sentence import judged_rows
     from viscorough_study.run import cases
-    from viscorough_study.run.kernels import KERNELS_BENCHMARK, compile_once
+    from viscorough_study.run.kernels import compile_once
     from viscorough_study.run.made_with import difference, origin
     from viscorough_study.run.names import SHOWN
     from viscorough_study.run.paper_data import read_paper, read_records
@@ -118,10 +116,9 @@ except ModuleNotFoundError as error:  # also raised if a package has no metadata
         f"{PROJECT}/.venv/bin/snakemake"
     )
 
-# Not documented: `is_main_process`, which is false in the processes of jobs. Snakemake does not say whether a run is dry
-# before all rules are read, so the options are read here. A dry run must not change anything.
-DRY_RUN = any(re.fullmatch("--dry-?run|-[a-zA-Z]*n[a-zA-Z]*", word) for word in sys.argv[1:])
-if workflow.is_main_process and not DRY_RUN:
+# Not documented: `is_main_process`, which is false in the processes of jobs. On another machine of a cluster, such a
+# process could take the lock of its own run for a stale one.
+if workflow.is_main_process:
     try:
         remove_stale_locks(unlock="--unlock" in sys.argv)
     except ValueError as error:
@@ -256,46 +253,3 @@ def indentation_memory(wildcards):
     """Return the memory [MB] of a job that indents the surfaces of a batch."""
     case = CASES[wildcards.kind][wildcards.case]
     return cases.measured_memory(case) if wildcards.kind == "measured" else cases.disc_memory(case)
-
-
-# ---- report and costs
-
-
-def category(name):
-    """Return a function that returns a category of the report. Only a report calls it; it requires current results.
-
-    name : name of the category; the report sorts categories by name
-    """
-
-    def checked(wildcards):
-        require_current()
-        return name
-
-    return checked
-
-
-def require_current():
-    """End the run with one line if any result is outdated, since the captions of the report would not match it."""
-    # Not documented: `dag`. Only the command line (`snakemake --dry-run`) otherwise tells which jobs are to be run.
-    if outdated := sorted({job.rule.name for job in workflow.dag.needrun_jobs() if job.output}):
-        end_run(
-            "results were not made with these settings and sources; run the workflow first, or give the settings that "
-            f"they were made with. Outdated or missing: {', '.join(outdated[:5])}{', ...' * (len(outdated) > 5)}"
-        )
-
-
-def benchmark_files(without=()):
-    """Return {rule: benchmark files of its jobs} of all rules defined so far, for the jobs that the settings need.
-
-    without : rules that are left out
-    """
-    # Not documented: the list of all rules, and the folder of a rule. Another workflow that uses this workflow as a
-    # module may have further rules, which are in another folder. Also not documented: both functions of wildcards, which
-    # understand the regular expressions that Snakemake adds to the names of files.
-    own = [rule for rule in workflow.rules if rule.benchmark and Path(rule.basedir).is_relative_to(WORKFLOW)]
-    jobs = [job | {"format": "png"} for job in cases.pool_jobs(CASES, cases.POOLS_OF_ALL)]
-    files = {}
-    for member in (member for member in own if member not in without):
-        described = [job for job in jobs if get_wildcard_names(member.benchmark) <= job.keys()]
-        files[member.name] = sorted({apply_wildcards(member.benchmark, job) for job in described})
-    return files

@@ -11,7 +11,7 @@ rule plot_surfaces:
         path=report(
             "results/figures/fig1_surfaces.{format}",
             caption="../report/figures/fig1_surfaces.rst",
-            category=category("2 Figures of the paper"),
+            category="2 Figures of the paper",
             labels={"result": "1, surfaces", "kind": "figure"},
         ),
     log:
@@ -40,7 +40,7 @@ use rule plot_surfaces as plot_kinetics with:
         path=report(
             "results/figures/fig2_kinetics.{format}",
             caption="../report/figures/fig2_kinetics.rst",
-            category=category("2 Figures of the paper"),
+            category="2 Figures of the paper",
             labels={"result": "2, kinetics", "kind": "figure"},
         ),
     log:
@@ -71,7 +71,7 @@ use rule plot_surfaces as plot_master_curve with:
         path=report(
             "results/figures/fig3_master_curve.{format}",
             caption="../report/figures/fig3_master_curve.rst",
-            category=category("2 Figures of the paper"),
+            category="2 Figures of the paper",
             labels={"result": "3, master curve", "kind": "figure"},
         ),
     log:
@@ -96,7 +96,7 @@ use rule plot_surfaces as plot_exponent with:
         path=report(
             "results/figures/fig4_exponent.{format}",
             caption="../report/figures/fig4_exponent.rst",
-            category=category("2 Figures of the paper"),
+            category="2 Figures of the paper",
             labels={"result": "4, exponent", "kind": "figure"},
         ),
     log:
@@ -124,7 +124,7 @@ use rule plot_surfaces as plot_regions with:
         path=report(
             "results/figures/regions.{format}",
             caption="../report/figures/regions.rst",
-            category=category("3 Verdicts"),
+            category="3 Verdicts",
             labels={"result": "regions of the curves", "kind": "figure"},
         ),
     log:
@@ -148,7 +148,7 @@ use rule plot_surfaces as plot_direct with:
         path=report(
             "results/figures/direct.{format}",
             caption="../report/figures/direct.rst",
-            category=category("3 Verdicts"),
+            category="3 Verdicts",
             labels={"result": "direct integration and both readings of the law", "kind": "figure"},
         ),
     log:
@@ -170,7 +170,7 @@ use rule plot_surfaces as plot_mdr_lambda with:
         path=report(
             "results/figures/mdr_lambda.{format}",
             caption="../report/figures/mdr_lambda.rst",
-            category=category("3 Verdicts"),
+            category="3 Verdicts",
             labels={"result": "MDR, lambda and exponents", "kind": "figure"},
         ),
     log:
@@ -191,7 +191,7 @@ use rule plot_surfaces as plot_validation with:
         path=report(
             "results/figures/validation.{format}",
             caption="../report/figures/validation.rst",
-            category=category("4 Conventions and validation"),
+            category="4 Conventions and validation",
             labels={"result": "comparison with exact solutions", "kind": "figure"},
         ),
     log:
@@ -212,7 +212,7 @@ use rule plot_surfaces as plot_speed with:
         path=report(
             "results/figures/speed.{format}",
             caption="../report/figures/speed.rst",
-            category=category("6 Speed and accuracy"),
+            category="6 Speed and accuracy",
             labels={"result": "speed against accuracy", "kind": "figure"},
         ),
     log:
@@ -236,7 +236,7 @@ use rule plot_surfaces as plot_failures with:
         path=report(
             "results/figures/failures.{format}",
             caption="../report/figures/failures.rst",
-            category=category("7 Where methods fail"),
+            category="7 Where methods fail",
             labels={"result": "where methods fail", "kind": "figure"},
         ),
     log:
@@ -257,7 +257,7 @@ use rule plot_surfaces as plot_local_exponent with:
         path=report(
             "results/figures/local_exponent.{format}",
             caption="../report/figures/local_exponent.rst",
-            category=category("8 Beyond the paper"),
+            category="8 Beyond the paper",
             labels={"result": "local exponent over X", "kind": "figure"},
         ),
     log:
@@ -281,7 +281,7 @@ use rule plot_surfaces as plot_measured with:
         path=report(
             "results/figures/measured.{format}",
             caption="../report/figures/measured.rst",
-            category=category("8 Beyond the paper"),
+            category="8 Beyond the paper",
             labels={"result": "measured surfaces", "kind": "figure"},
         ),
     log:

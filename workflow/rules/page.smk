@@ -1,14 +1,8 @@
-# Rules that sum up the run: the time and memory of all rules, and the page of the results, which is the last output of
-# `all`. They use results only.
-
-# The rules of measured surfaces; their costs are left out if the settings name no surface.
-NEED_SCANS = [rules.solve_measured_contacts.rule, rules.evaluate_measured.rule, rules.plot_measured.rule]
-# The rules of the target `fine_grids`, which is not part of `all`.
-FINE_GRIDS = [rules.indent_nested.rule, rules.fit_fine_exponents.rule, rules.plot_local_exponent.rule]
+# The page of the results, which is the last output of `all`. It uses results only.
 
 
 rule tables:
-    """All tables, except those of measured surfaces and the costs of this run."""
+    """All tables, except those of measured surfaces."""
     input:
         expand(
             "results/tables/{table}.csv",
@@ -45,34 +39,6 @@ rule measured:
         else [],
 
 
-# Like all measured times, the costs differ from run to run.
-rule tabulate_rule_costs:
-    input:
-        rules.figures.input,
-        rules.tables.input,
-        rules.measured.input,
-        rules.require_validation.output,
-    output:
-        csv="results/tables/rule_costs.csv",
-    log:
-        "results/logs/tabulate_rule_costs.log",
-    benchmark:
-        "results/benchmarks/tabulate_rule_costs.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    resources:
-        mem_mb=500,
-    params:
-        benchmarks={"compile_kernels": [KERNELS_BENCHMARK]}
-        | benchmark_files([*FINE_GRIDS, *([] if MEASURED else NEED_SCANS)]),
-        source=digest("tabulate_rule_costs"),
-    message:
-        "Time and memory of every rule"
-    script:
-        "../scripts/tabulate_rule_costs.py"
-
-
 # Figures of the page; workflow/page/figures.yaml describes them for readers who cannot see them.
 PAGE_FIGURES = [
     "fig1_surfaces",
@@ -93,7 +59,6 @@ PAGE_TABLES = {
     "methods": "measure_methods",
     "one_surface": "measure_one_surface",
     "failures": "map_failures",
-    "rule_costs": "tabulate_rule_costs",
     "sufficient_models": "choose_sufficient_models",
 }
 if MEASURED:
@@ -125,7 +90,7 @@ rule make_page:
         page=report(
             "results/index.html",
             caption="../report/page.rst",
-            category=category("1 Summary"),
+            category="1 Summary",
             labels={"result": "questions and answers", "kind": "page"},
         ),
     log:

@@ -14,7 +14,6 @@ from viscorough_study.page.results import read_results
 from viscorough_study.robustness.outcomes import VERDICTS as OUTCOMES
 from viscorough_study.run.made_with import all_versions, read_record
 from viscorough_study.run.readable import readable
-from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.run.tables import split_table
 from viscorough_study.verdicts.claim import KINDS
 
@@ -67,7 +66,6 @@ def contents_of(project, discs, lines, *, tables, numbers, made_by, changed, fil
     conventions = results.settings["claims"]["conventions"]
     claims = content.claims(results)
     texts = yaml.safe_load((project / "workflow/page/in_short.yaml").read_text("utf-8"))
-    costs = split_table(tables["rule_costs"])[0]
     return {
         "results": results,
         "conventions": conventions,
@@ -90,9 +88,7 @@ def contents_of(project, discs, lines, *, tables, numbers, made_by, changed, fil
         "measured": content.measured(results, conventions),
         "changed": {name: [content.as_yaml(value) for value in pair] for name, pair in changed.items()},
         "files": files,
-        "costs": results.records("rule_costs"),
         "versions": all_versions(map(read_record, [discs, lines, *tables.values()])),
-        **{name: costs[name] for name in ("machine", "made")},
-        "time": duration_text(results.tables["rule_costs"]["share_s"].sum()),
+        "machine": split_table(tables["methods"])[0]["machine"],
         "paper_time": numbers["boundary_elements"]["computing_time"]["value"],
     }

@@ -39,8 +39,6 @@ POOL_KINDS = {
     "lines": "lines",
     "measured": "measured",
 }
-# Pools of the default run; the others are made by the targets `beyond` (law) and `sensitivities` (variants).
-POOLS_OF_ALL = ("discs", "coarse", "lines", "measured")
 UNIT_DISC = {"rms": 1.0, "diameter": 1.0, "length_unit": "1"}
 UNIT_LINE = {"rms": 1.0, "length": 1.0}
 
@@ -303,20 +301,6 @@ def pool_groups(tables, pool):
     tables : {kind of surface: {name of a case: description}}
     """
     return [tables[POOL_KINDS[pool]][case]["group"] for case, _ in pool_batches(tables, pool)]
-
-
-def pool_jobs(tables, pools):
-    """Return the Snakemake wildcards of every batch of these pools of curves, as a list of {name: value}.
-
-    tables : {kind of surface: {name of a case: description}}
-    """
-    # {kind of surface: Snakemake wildcards whose value is the name of a case}
-    names = {"discs": ["case"], "lines": ["line"], "measured": ["case", "scan"]}
-    return [
-        dict.fromkeys(names[POOL_KINDS[pool]], case) | {"batch": batch, "kind": POOL_KINDS[pool], "pool": pool}
-        for pool in pools
-        for case, batch in pool_batches(tables, pool)
-    ]
 
 
 def combination_curves(discs):

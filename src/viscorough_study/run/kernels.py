@@ -8,16 +8,11 @@ Without this step, jobs that start at the same time would all compile the same f
 import multiprocessing
 import subprocess
 import sys
-import time
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import numpy as np
 
-from viscorough.io.atomic import atomic_write
-
-# File with the time of the compilation, in the format of Snakemake's benchmark files of jobs.
-KERNELS_BENCHMARK = "results/benchmarks/compile_kernels.tsv"
 _STAMP = ".snakemake/kernels"
 
 
@@ -118,13 +113,7 @@ def compile_once(digest):
     if stamp.is_file() and stamp.read_text() == digest:
         return
     print("Compiling the solvers, once: about 30 seconds", file=sys.stderr, flush=True)
-    start = time.monotonic()
     subprocess.run([sys.executable, "-m", "viscorough_study.run.kernels"], check=True)
-    cost = Path(KERNELS_BENCHMARK)
-    cost.parent.mkdir(parents=True, exist_ok=True)
-    with atomic_write(cost) as temporary:
-        # The column of the memory is empty, since the memory is not measured.
-        temporary.write_text(f"s\tmax_rss\n{time.monotonic() - start:.2f}\t\n")
     stamp.write_text(digest)
 
 

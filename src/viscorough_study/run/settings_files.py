@@ -1,11 +1,6 @@
-"""Read settings files; an error message is one line that names the file and, if possible, the line in it.
-
-Snakemake reads the files given with --configfile before it reads the Snakefile, and its own messages name neither file
-nor line. Therefore profiles/default calls `check_command_line` before Snakemake reads the files.
-"""
+"""Read settings files; an error message is one line that names the file and, if possible, the line in it."""
 
 import re
-import sys
 from pathlib import Path
 
 import yaml
@@ -37,24 +32,3 @@ def read_settings_file(path):
         if not isinstance(settings, dict):
             raise ValueError("it holds no settings")
     return settings
-
-
-def check_command_line(arguments):
-    """End this process with one line if a settings file on the command line of Snakemake cannot be read.
-
-    arguments : arguments of Snakemake; --configfile or --configfiles is followed by paths, or by "=" and one path
-    """
-    paths, reads_paths = [], False
-    for argument in arguments:
-        option, equals, path = argument.partition("=")
-        if argument.startswith("-"):
-            reads_paths = option in ("--configfile", "--configfiles") and not equals
-            paths += [path] if option in ("--configfile", "--configfiles") and equals else []
-        elif reads_paths:
-            paths.append(argument)
-    try:
-        for path in paths:
-            read_settings_file(path)
-    except ValueError as error:
-        sys.stderr.write(f"Error in the settings: {error}\n")
-        sys.exit(2)

@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import brentq
 
 from support.media import SPRINGS_AND_DASHPOTS
-from support.small_motion import SpringsAndDashpots, row_of_springs, small_motion
+from support.small_motion import SpringsAndDashpots, small_motion
 from viscorough import Load, Springpot
 from viscorough.media.creep_response import creep_response
 from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Prony, StandardLinearSolid
@@ -123,10 +123,8 @@ def test_steps_in_time_approach_the_exact_motion(number):
     found = []
     for parts in (8, 64):
         fine_times, fine_load, place = refined(times, load, parts)
-        steps = small_motion(
-            *row_of_springs(gaps, weights), same, fine_times, **{"depth" if by_depth else "force": fine_load}
-        )
-        found.append((steps.force if by_depth else steps.depth)[place])
+        depths, forces = small_motion(gaps, weights, same, fine_times, **{"depth" if by_depth else "force": fine_load})
+        found.append((forces if by_depth else depths)[place])
     exact = motion.force if by_depth else motion.depth
     # With a dashpot, the steps give the force just before each time.
     compared = np.append(np.diff(times) == 0, True) if by_depth and spectrum.viscosity else slice(None)

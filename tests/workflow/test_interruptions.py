@@ -7,7 +7,6 @@ import subprocess
 import sys
 import time
 
-import psutil
 import pytest
 import xarray as xr
 
@@ -112,29 +111,3 @@ def test_run_continues_after_an_interrupt_and_a_kill(folder):
     shutil.rmtree(folder / "results")
     finish(folder)
     assert contents(folder) == interrupted, "results of a run without interruptions"
-
-
-def test_job_that_outlives_its_run_keeps_the_lock(folder):
-    """Only the run is killed, as the system does when memory ends. The job would overwrite results of the next run."""
-    with make(folder) as run:
-        deadline = time.monotonic() + HANGS
-        while not list(folder.glob("results/logs/reduce_lines/h09000/*.log")):
-            assert time.monotonic() < deadline, "no job begins"
-            time.sleep(0.02)
-        children = psutil.Process(run.pid).children(recursive=True)
-        of_job = [child for child in children if ".snakemake/scripts/" in " ".join(child.cmdline())]
-        assert of_job
-        try:
-            for process in of_job:
-                process.suspend()
-            for process in {*children} - {*of_job}:
-                process.kill()
-            run.wait(HANGS)
-            with make(folder) as second:
-                output, _ = second.communicate(timeout=HANGS)
-            assert second.returncode != 0
-            assert "Directory cannot be locked" in output
-        finally:
-            for process in of_job:
-                process.kill()
-    assert finish(folder).count(GOES_ON) == 1

@@ -8,7 +8,6 @@ import pytest
 import support.tables
 from support.cf import violations
 from support.command_line import run
-from support.page import Page
 from support.workflow import TEST, jobs, plan, settings_file, snakemake
 from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.run.tables import read_table
@@ -54,12 +53,6 @@ def test_scans_are_evaluated_in_metres(folder):
         assert violations(path) == [], path
 
 
-def test_power_laws_have_the_numbers_of_scans(folder):
-    fits = read_table(folder / "results/tables/measured_fits.csv")
-    assert fits.groupby("case_group")["realizations"].first().to_dict() == {"ground": 2, "polished": 1}
-    assert fits[fits["case_group"] == "polished"]["beta_low"].isna().all()  # the interval needs more than one scan
-
-
 def test_kinetics_have_all_forces_in_every_medium(folder):
     kinetics = read_table(folder / "results/tables/measured_kinetics.csv")
     assert set(kinetics["scan"]) == {"ground_a", "ground_b"}
@@ -80,15 +73,6 @@ def test_contacts_have_the_numbers_of_the_command_line(folder, monkeypatch):
     table, units = support.tables.read_table("contacts.csv")
     for name in units:
         np.testing.assert_allclose(contacts[:2][name], table[name], rtol=1e-12, err_msg=name)
-
-
-def test_page_has_a_section_on_measured_surfaces(folder):
-    page = Page((folder / "results/index.html").read_text(encoding="utf-8"))
-    assert "measured" in page.ids
-    assert "scans/a.npy" in page.text
-    shown = {(attributes["data-table"], attributes["data-column"]) for _, attributes, _ in page.numbers}
-    assert {("measured_contacts", "normal_force"), ("measured_contacts", "corrected_contact_area")} <= shown
-    assert (folder / "results/figures/measured.png").stat().st_size > 10_000
 
 
 def test_scan_is_indented_again_if_its_content_changes(folder):

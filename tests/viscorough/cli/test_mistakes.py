@@ -23,10 +23,8 @@ EXCLUDE = "exclude each other; one of them is allowed"
 QUANTITY = "is not a number above 0 and finite, plain or with a unit"
 INCREASING, NO_UNIT = "each larger than the one before", "needs a plain number, since the unit of length is not known"
 # Opening a pipe would wait until another process writes into it.
-OF_PIPES = ["kinetics pipe.nc --force 1 --viscosity 1 -o out.nc", "plot pipe.nc -o out.png"]
-OF_PIPES += [f"{command} -o out.nc" for command in ("indent pipe.nc", "indent pipe.npy", "reduce pipe.npy")]
-OF_PIPES += [f"{KINETICS} --viscosity 1 --force-history pipe{suffix}" for suffix in (".csv", ".npy")]
-OF_PIPES += [f"{KINETICS} --force 1 --medium pipe.yaml"]
+OF_PIPES = ["kinetics pipe.nc --force 1 --viscosity 1 -o out.nc", "indent pipe.npy -o out.nc"]
+OF_PIPES += [f"{KINETICS} --viscosity 1 --force-history pipe.csv", f"{KINETICS} --force 1 --medium pipe.yaml"]
 KIND = "unknown kind of file; allowed:"
 RESULTS = ".nc (NetCDF), .csv (table)"
 WRITERS = [
@@ -42,27 +40,22 @@ MISTAKES = [
     (f"{INDENT} --tolerance 0", "'--tolerance': 0.0 is not in the range 0<x<=0.1"),
     (f"{INDENT} --until-fraction nan", "'--until-fraction': 'nan' is not a finite number"),
     *[(f"{INDENT} --depths {depths}", text) for depths, text in (("1,,2", QUANTITY), ("2,1", INCREASING))],
-    (f"{INDENT} --tolerance 1e-13", "indent: --tolerance must be between 1e-12 and 0.1"),
     (f"{INDENT} --crop 0:5,0:10", "--crop to rows 0:10; within 0:9 is allowed"),
     ("indent um.nc -o um.nc", "replace the heights"),
     ("indent heights.npy --spacing 1 --unit 1 -o curve.nc/out.nc", "curve.nc/out.nc: there is no folder curve.nc"),
-    *[(f"{INDENT} --forces 1 {other} 1", EXCLUDE) for other in ("--depths", "--until-fraction", "--until-force")],
+    (f"{INDENT} --forces 1 --depths 1", EXCLUDE),
     (f"{INDENT} --crop 0:2,0:9 --grid-error", "every n-th point, n = 2, of a map of 9 x 2 points"),
-    (f"{INDENT} --until-force '1 N'", "a force needs --shear-modulus or --young"),
     (CONTACT, "one of --force and --depth is needed"),
-    (f"{CONTACT} --force 1 --depth 1", "one of --force and --depth is needed"),
-    *[(f"{CONTACT} --force {force}", QUANTITY) for force in ("0", "nan", "much", "1,")],
+    *[(f"{CONTACT} --force {force}", QUANTITY) for force in ("0", "much")],
     (f"{CONTACT_UM} --force '2 mN,1 uN' --young 1", INCREASING),
     (f"{CONTACT_UM} --force '1 mN,2' --young 1", "some numbers have a unit; write '1 mN,2 mN'"),
     (f"{CONTACT_UM} --force '1,5 mN' --young 1", "write '1 mN,5 mN', or '1.5 mN' for one number"),
     (f"{CONTACT_UM} --force 1 --young '1,5 MPa'", "'1,5 MPa' has a comma in its number; write '1.5 MPa'"),
-    (f"{CONTACT_UM} --force 1 --tolerance 0,01", "'0,01' has a comma in its number; write '0.01'"),
     (f"{CONTACT_UM} --force 1 mN --young 2 MPa", '--force 1 mN: the shell splits this value; write --force "1 mN"'),
     (
         f"{KINETICS} --force 1 --viscosity 1e6 Pa·s",
         "--viscosity 1e6 Pa·s: the shell splits this value; write --viscosity",
     ),
-    ("plot --spacing 2 um heights.npy -o out.png", "--spacing 2 um: the shell splits this value"),
     *[
         (
             f"plot heights.npy -o out.png --unit um --spacing '{text}'",
@@ -75,7 +68,6 @@ MISTAKES = [
         )
     ],
     (f"{CONTACT_UM} --force '1 mN'", "a force needs --shear-modulus or --young"),
-    (f"{CONTACT_UM} --force '1 Pa' --young 1", QUANTITY),
     (f"{CONTACT} --force '1 mN' --shear-modulus 1", NO_UNIT),
     (f"{CONTACT} --force 1 --shear-modulus '1 um'", "--shear-modulus"),
     (
@@ -87,7 +79,6 @@ MISTAKES = [
     (f"{CONTACT} --force 1 --young 1 --poisson 0.6", "0.6 is not in the range -1<x<=0.5"),
     (f"{CONTACT} --force 1 --threads 0", "'--threads': 0 is not in the range 1<=x<=1024"),
     (f"{KINETICS} --viscosity 1", "one of --force, --force-history and --depth-history is needed"),
-    (f"{KINETICS} --force 1 --depth-history force.csv --viscosity 1", "one of --force, --force-history and"),
     (f"{KINETICS} --depth-history force.csv --viscosity 1 -o force.csv", "would replace the depth history"),
     (f"{KINETICS} --force 1", "one of --viscosity and --medium is needed"),
     ("kinetics curve.nc --force 1 --viscosity 1 -o pipe.nc", "pipe"),
@@ -100,12 +91,9 @@ MISTAKES = [
         "2 kPa s is no file; for a viscosity, --viscosity '2 kPa s' is needed",
     ),
     (f"{KINETICS} --force 1 --medium medium.yaml -o link.nc", "would replace the medium"),
-    (f"{KINETICS} --force-history force.csv --viscosity 1 -o force.csv", "would replace the force history"),
     (f"{KINETICS} --force 1 --viscosity 1 -o curve.nc", "would replace the curve"),
     (f"{CONTACT_UM} --force 1 --young 1e-320", "too small"),
     (f"{ESTIMATE} --rms '1 um' --force 1 --viscosity 1", "one has a unit; both or none is allowed"),
-    (f"{ESTIMATE} --rms 1 --force '1 N' --viscosity 1", f"--force 1 N: {NO_UNIT}"),
-    (f"{ESTIMATE} --rms 1 --force 1", "one of --viscosity and --medium is needed"),
     (f"{ESTIMATE} --rms 1 --force 1 --viscosity 1e-320", "--viscosity: 1e-320; allowed"),
     (f"{ESTIMATE} --rms 1 --force 1e30 --viscosity 1", "--times: X = F·J(t)/(4hL) is"),
     (f"{ESTIMATE.replace('0.8', '0.05')} --rms 1 --force 1 --viscosity 1", "--hurst: must be from 0.1 to 1"),
@@ -115,23 +103,18 @@ MISTAKES = [
         f"{KINETICS} --force 1e6 --viscosity 1 --times 1e6",
         "indent further, with --until-fraction 1 or, in units of F/G, --until-force ",
     ),
-    (f"{KINETICS} --force 1e6 --viscosity 1 --times 1e6", "kinetics: --force or --force-history: at time"),
     *[
         (f"{KINETICS} --force 1 --viscosity 1 --times {times}", "FIRST:LAST:COUNT, as 0:4:201, needs 0 <= FIRST < LAST")
-        for times in ("0:1", "1:0:3", "0:1:1", "0:1:2.5", "0:inf:3", "0:1:1e9", "a:1:2", "-1:1:2")
+        for times in ("0:1", "1:0:3", "0:1:2.5")
     ],
     (f"{KINETICS} --force 1e-320 --viscosity 1", "--times: missing, and the creep is"),
     (f"{KINETICS} --depth-history deep.csv --viscosity 1", "--depth-history: 4e+06 is beyond the curve's last level"),
-    (f"{ESTIMATE} --rms 1 --force 1 --medium medium.yaml -o link.nc", "would replace the medium"),
     (GENERATE, "either --elements (a disc) or --points (a line) is needed"),
     (f"{GENERATE} --elements 5 --plateau", "--plateau is for use with --roll-off"),
-    (f"{GENERATE} --elements 5 --unit 1 --rms '2 um'", f"--rms 2 um: {NO_UNIT}"),
     (f"{MARCH} events", "one of --times and --force-history is needed"),
     (f"{MARCH} implicit --times 1 --until-fraction 0.1", "--until-fraction is not for"),
     (f"{MARCH} euler --times 1", "'euler' is not one of 'events', 'implicit'"),
     (f"{MARCH} events --medium medium.yaml --times 1 --viscosity 2", "--medium replaces --viscosity"),
-    (f"{MARCH} events --force-history none.csv --force 1", "--force-history replaces --force"),
-    (f"{MARCH} implicit --force-history force.csv -o link.csv", "would replace the force history"),
     ("reduce line.npy -o out.nc", "line.npy: the file states no unit of length; --unit, as --unit um, is needed, and"),
     *[
         (f"{MARCH} {method} --force 1e300 --viscosity 1e-300 --times 1", "depths or forces overflow")
@@ -140,7 +123,6 @@ MISTAKES = [
     ("reduce text.npy --spacing 1 --unit 1 -o out.nc", "text.npy: indenter heights: must be real numbers"),
     ("reduce line.npy --spacing 1 --unit 1 --realizations 2 -o out.nc", "--realizations and --seed are for maps"),
     ("reduce line.npy --spacing 1 --unit 1 --flip -o out.nc", "--channel and preparation are for maps"),
-    ("reduce map.nc -o map.nc", "would replace the heights"),
     ("reduce heights.npy --spacing 1 --unit 1 --realizations 2 -o a.csv", "several curves are no table"),
     (INDENT.replace("--unit 1", ""), "states no unit of length; --unit, as --unit um, is needed, or --unit 1 for"),
     ("plot heights.npy --unit um -o out.png", "points is not stated; --spacing is needed\n"),
@@ -153,7 +135,7 @@ MISTAKES = [
     ("plot heights.npy -o out.png --unit 1 --spacing 1,-1", "spacing: must be positive"),
     ("plot heights.npy -o out.png --spacing 1 --unit V", "unit 'V': not a unit"),
     *[(f"{INDENT} --nodata '{value}'", f"--nodata {value}") for value in ("a", "1,")],
-    *[(f"{INDENT} --crop '{crop}'", f"--crop {crop}") for crop in ("1:2", "1:2,3:4,5:6", "-1:2,0:3")],
+    *[(f"{INDENT} --crop '{crop}'", f"--crop {crop}") for crop in ("1:2", "-1:2,0:3")],
     (f"{INDENT} --channel height", "--channel height"),
     ("indent um.nc --channel y -o out.nc", "heights have the shape (9,)"),
     (f"{INDENT} --scale much", "--scale much"),

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from viscorough import AccuracyWarning, Indenter, contact_at, indent, prepare, read_heights, reference, save
+from viscorough import AccuracyWarning, Indenter, contact_at, indent, reference
 from viscorough.surfaces.self_affine import self_affine_square
 
 BORDER = "the border of the map carries more than 5 % of the force although less than 30 % of its elements touch"
@@ -55,17 +55,3 @@ def test_other_bodies_give_no_warning(indenter, caught):
     indent(indenter, until_fraction=0.3)
     contact_at(indenter, depth=0.01)
     assert caught == []
-
-
-def test_contact_of_most_elements_gives_no_warning(caught):
-    assert contact_at(FLAT, depth=0.2).contact_fraction > 0.9
-    assert caught == []
-
-
-def test_heights_know_that_they_are_from_a_file(tmp_path):
-    save(replace(FLAT, from_file=False), tmp_path / "map.nc")
-    indenter = read_heights(tmp_path / "map.nc")
-    assert indenter.from_file
-    assert indenter.to("m").from_file
-    assert prepare(indenter, detrend="plane").from_file
-    assert indenter == replace(FLAT, from_file=False)

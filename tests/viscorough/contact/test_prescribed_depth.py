@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from viscorough import ConvergenceError, Indenter, SolverOptions, indent, self_affine_disc
+from viscorough import ConvergenceError, Indenter, SolverOptions, self_affine_disc
 from viscorough.contact.prescribed_depth import ContactSolver
 from viscorough.contact.state import MemberLoads
 
@@ -53,28 +53,3 @@ def test_events_end_at_the_force_and_ties_are_one_event():
     events, last, _ = solver.follow_events(four, 9, np.inf)
     assert events.count.tolist() == [8, 9]  # the four sides touch at once
     assert last.count == 9
-
-
-def test_invalid_options_are_refused():
-    for wrong, message in (
-        ({"precision": "half"}, "precision: must be one of single, double, not 'half'"),
-        ({"operator_rounding": -1.0}, "operator_rounding: must not be negative"),
-        ({"operator_rounding": np.nan}, "operator_rounding: nan; a finite number is needed"),
-        ({"max_iterations": 0}, "max_iterations: must be a whole number of at least 1"),
-    ):
-        with pytest.raises(ValueError, match=message):
-            SolverOptions(**wrong)
-
-
-def test_largest_depth_makes_grids_smaller_without_a_limit():
-    disc = self_affine_disc(0.8, 65, seed=1)
-    depths = np.nanmax(disc.initial_gap) * np.array([0.1, 0.15, 0.2])
-    sizes = []
-    for largest_depth in (np.inf, depths[1]):
-        solver = ContactSolver(disc, 1e-6, ROUTES["grid"], largest_depth=largest_depth)
-        contact = solver.unloaded_state()
-        for depth in depths:  # the last one is larger
-            contact = solver.advance(contact, depth)
-            sizes.append(contact.fields.pressure.size)
-        assert contact.force == pytest.approx(indent(disc, depths=depths[2:], tolerance=1e-6).force[0], rel=1e-6)
-    assert sizes[4] < sizes[1]

@@ -4,9 +4,7 @@ import numpy as np
 import pytest
 
 from viscorough import Indenter, indent, self_affine_disc
-from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.prescribed_depth import ContactSolver
-from viscorough.contact.state import DenseContact, GridContact
 from viscorough.contact.step_control import Level, StepControl, division, interpolate, interpolation_bound
 from viscorough.viscous.integration.events import newtonian_events
 
@@ -76,17 +74,3 @@ def test_bound_is_relaxed_only_for_a_small_predicted_error(indenter, depths, tol
     bound = interpolation_bound(Level.of(before), Level.of(after)) / tolerance
     assert 0.5 < bound < 3
     assert control.excess(before, after) == pytest.approx(bound / 3.3 if relaxed else bound)
-
-
-def test_contacts_before_a_dense_solution_are_not_predicted():
-    """Contacts are solved ahead, so a contact on the grid may precede a dense contact: the bound alone decides."""
-    indenter, contacts = self_affine_disc(0.5, 33, seed=1), []
-    for depth, options in ((0.3, SolverOptions(dense_contacts=0)), (0.35, DEFAULT)):
-        solver = ContactSolver(indenter, 1e-6, options)
-        contacts.append(solver.advance_reduced(solver.unloaded_state(), depth))
-    before, after = contacts
-    assert isinstance(before, GridContact)
-    assert isinstance(after, DenseContact)
-    bound = interpolation_bound(Level.of(before), Level.of(after)) / 1e-3
-    assert 1 < bound < 3
-    assert StepControl(1e-3).excess(before, after) == pytest.approx(bound)

@@ -6,7 +6,7 @@ import pytest
 import viscorough
 from support.contract import refused
 from support.curves import assert_same_curve, random_curve
-from viscorough import Indenter, indent, load_curve, reduce, self_affine_disc, self_affine_line
+from viscorough import Indenter, load_curve
 from viscorough.io import netcdf
 from viscorough.io.curves import curve_from_content, curve_to_content, stack_curves, unstack_curves
 from viscorough.io.netcdf import Content
@@ -155,31 +155,3 @@ def test_impossible_grid_errors_are_refused(change, what):
     curve_from_content(content)
     with refused(what):
         curve_from_content(change(content))
-
-
-ROW, COLUMN = np.mgrid[:13, :13] - 6.0
-INDENTERS = {
-    "disc": self_affine_disc(0.4, 13, seed=5),
-    "terraces": Indenter(-0.1 * ((ROW // 3 + COLUMN // 2) % 3), 0.5),
-    "sphere": Indenter(-(ROW**2 + COLUMN**2) / 50, 0.1, length_unit="um"),
-}
-
-
-@pytest.mark.filterwarnings("ignore:indent. .*complete", "ignore:.*larger than the map is wide")
-@pytest.mark.parametrize("tolerance", [1e-1, 1e-8])
-@pytest.mark.parametrize("kind", INDENTERS)
-def test_curves_that_the_solvers_compute_are_read(kind, tolerance):
-    """Within their tolerance the curves are convex and contact grows. Curves in single precision are read as well."""
-    indenter, levels = INDENTERS[kind], np.linspace(0.1, 1, 7)
-    whole = indent(indenter, tolerance=tolerance, until_fraction=1.0)
-    for curve in (
-        whole,
-        indent(indenter, tolerance=tolerance, until_fraction=0.9, start_fraction=0.3),
-        indent(indenter, tolerance=tolerance, depths=whole.depth[-1] * levels),
-        indent(indenter, tolerance=tolerance, forces=whole.force[-1] * levels),
-        reduce(self_affine_line(0.4, 100, seed=5)),
-    ):
-        content = curve_to_content(curve)
-        assert_same_curve(curve_from_content(content), curve)
-        singles = {k: v._replace(values=v.values.astype(np.float32)) for k, v in content.variables.items()}
-        curve_from_content(Content(singles, content.attributes))

@@ -133,12 +133,11 @@ def test_scale_converts_values_that_are_no_lengths(tmp_path):
         read_heights(tmp_path / "a.nc", 2000.0, scale=5)
 
 
-@pytest.mark.parametrize("suffix", [".txt", ".csv", ".asc", ".dat"])
-@pytest.mark.parametrize("content", [b"\x01\x02" + 40 * b"\xff\xd8abc", 20 * bytes(range(1, 256)), 9 * b"1 2\x08\n"])
-def test_binary_files_with_the_suffix_of_a_text_are_refused_without_their_bytes(tmp_path, suffix, content):
-    path = tmp_path / f"a{suffix}"
+@pytest.mark.parametrize("content", [b"\x01\x02" + 40 * b"\xff\xd8abc", 9 * b"1 2\x08\n"])
+def test_binary_files_with_the_suffix_of_a_text_are_refused_without_their_bytes(tmp_path, content):
+    path = tmp_path / "a.txt"
     path.write_bytes(content)
-    with refused(rf"a\{suffix}: its content has no known format") as error:
+    with refused(r"a\.txt: its content has no known format") as error:
         read_heights(path, 1.0)
     assert str(error.value).isprintable()
     assert len(str(error.value)) < len(str(path)) + 120

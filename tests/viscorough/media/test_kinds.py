@@ -69,16 +69,6 @@ def test_compliance_and_modulus_follow_closed_forms():
     np.testing.assert_allclose(solid.relaxation_modulus(t), 1.5 + 2.5 * np.exp(-t / 0.3), rtol=1e-15)
 
 
-@pytest.mark.parametrize(("name", "modulus"), [("kelvin-voigt", 2.0), ("solid", 1.5), ("prony", 0.5)])
-def test_solids_creep_to_the_inverse_of_the_relaxed_modulus(name, modulus):
-    assert MEDIA[name].creep_compliance(np.inf) == pytest.approx(1 / modulus, rel=1e-14)
-
-
-@pytest.mark.parametrize("name", ["newtonian", "maxwell", "springpot"])
-def test_media_that_flow_creep_without_end(name):
-    assert MEDIA[name].creep_compliance([0.0, np.inf])[1] == np.inf
-
-
 @pytest.mark.parametrize("a", [0.05, 0.5, 0.95])
 def test_springpot_compliance_and_modulus_are_inverse(a):
     """ψ and J are inverse, so ∫ψ(t − s) J(s) ds = t, with ∫(t − s)^(−a) s^a ds = t B(1 − a, 1 + a)."""

@@ -14,9 +14,9 @@ PER_X = 4 * RMS * DIAMETER  # F·J at X = 1
 LAW = viscorough.penetration_law(0.6)
 
 
-@pytest.mark.parametrize("hurst", [0.7, 1.0])
-def test_estimate_is_the_mean_of_simulated_surfaces(hurst):
+def test_estimate_is_the_mean_of_simulated_surfaces():
     """The mean is arithmetic, over 24 discs of 129 elements across."""
+    hurst = 0.7
     times = np.geomspace(5e-3, 3, 6)  # force over viscosity is PER_X, so X = t
     times = times[times >= viscorough.penetration_law(hurst).x_low]
     estimated = estimate(hurst, RMS, DIAMETER, PER_X, 1.0, times)

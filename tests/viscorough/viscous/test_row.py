@@ -46,7 +46,7 @@ def test_row_of_a_curve_of_all_contact_events_is_exact():
     assert row.limit == np.inf, "complete contact goes on as a flat punch"
 
 
-@pytest.mark.parametrize("size", [5, 7, 9, 11, 17])
+@pytest.mark.parametrize("size", [5, 11])
 def test_row_and_motion_go_on_with_the_last_stiffness_after_complete_contact(size):
     """The tangents of the last two levels may meet at the last level within rounding. In a viscous medium Φ = F t/η."""
     for seed in range(15):

@@ -7,7 +7,6 @@ from support.command_line import run
 from support.tables import read_table
 from viscorough.contact.loading_path import indent
 from viscorough.surfaces.self_affine import self_affine_disc
-from viscorough_study.comparisons.measured import measured_motions
 from viscorough_study.comparisons.measured_contacts import CONTACTS, measured_contacts, rows_with_grid_errors
 
 GRID_ERRORS = ["grid_error", "force_grid_error", "area_change"]
@@ -36,33 +35,12 @@ def test_table_is_that_of_the_command_line():
         assert CONTACTS[name][1] == units[name]
 
 
-def test_motions_end_where_their_curve_ends():
-    """In a Newtonian medium F t/η is the impulse over the viscosity, which replaces F/G."""
-    curve = indent(self_affine_disc(0.6, 9, rms=0.5e-6, diameter=90e-6, seed=1, length_unit="m"))
-    media = [{"name": "fluid", "kind": "newtonian", "viscosity": 1e6}]
-    times = {"low": 1e-9, "high": 1e3, "per_decade": 10}
-    (motion,) = measured_motions(curve, [1e-4, 1e9], media=media, times=times)
-    end = curve.force[-1] * 1e6 / 1e-4
-    assert end / 10**0.1 < motion["time"].max() <= end
-    assert set(motion["force"]) == {1e-4}
-
-
 def test_scan_that_fails_has_a_row_with_its_reason():
     table = measured_contacts([SCAN | {"file": "missing.npy"}, SCAN])
     assert table["file"].tolist() == ["missing.npy", "a.npy", "a.npy"]
     assert "not readable (No such file" in table["error"][0]
     assert table["error"][1:].tolist() == ["", ""]
     assert np.isnan(table["depth"]).tolist() == [True, False, False]
-
-
-@pytest.mark.filterwarnings("default")
-def test_warnings_and_faults_become_texts_without_the_path(monkeypatch):
-    np.save("steep.npy", 40 * np.load("a.npy"))
-    (text,) = measured_contacts([SCAN | {"file": "steep.npy", "forces": [1e-5]}])["warnings"]
-    assert text.startswith("the rms slope is ")
-    monkeypatch.setattr("viscorough_study.comparisons.measured_contacts.contact_at", None)
-    (text,) = measured_contacts([SCAN])["error"]
-    assert text.startswith("TypeError: ")
 
 
 @pytest.mark.parametrize(("hurst", "seed"), [(0.5, 2), (0.8, 0), (0.8, 3)])

@@ -36,12 +36,6 @@ def test_newtonian_velocity_agrees_with_the_paper(ensembles, table):
     np.testing.assert_allclose(rows["x"], 1e-4 * rows["time"] / (4e-8 * 1e6), rtol=1e-14)
 
 
-def test_force_beyond_all_curves_has_no_rows(ensembles):
-    table = media_table(ensembles, MEDIA, force=1e10, times=abscissa(1e-3, 1e4, 20))
-    assert table.empty
-    assert list(table) == list(COLUMNS)
-
-
 def test_depth_depends_on_time_only_through_the_creep_compliance(table):
     newtonian, maxwell = (table[table["medium"] == name] for name in MEDIA)
     inside = maxwell[(maxwell["x"] > newtonian["x"].min()) & (maxwell["x"] < newtonian["x"].max())]

@@ -32,13 +32,6 @@ def test_complete_contact_has_no_separation():
     assert mean_separations(wave(n), np.sqrt(2) * np.pi * np.array([1.01, 2.0])) == pytest.approx([0, 0], abs=1e-4)
 
 
-def test_light_load_is_carried_by_the_highest_element():
-    heights = np.random.default_rng(1).standard_normal((32, 32))
-    separation, pressure = periodic_contact(heights, np.full((32, 32), 1e-12))
-    assert np.argwhere(pressure > 0).tolist() == [list(np.unravel_index(heights.argmax(), heights.shape))]
-    assert separation == pytest.approx(heights.max(), rel=1e-9)
-
-
 def test_table_has_a_row_for_each_pressure():
     table = periodic_control.periodic_control(hursts=[0.7], points=32, x_low=0.1, x_high=10.0, **SETTINGS)
     assert list(table) == list(COLUMNS)

@@ -3,7 +3,6 @@
 import pandas as pd
 import pytest
 
-from support.workflow import load_script
 from viscorough.io import netcdf
 from viscorough_study.figures import style
 from viscorough_study.run import made_with
@@ -59,17 +58,3 @@ def test_versions_of_all_jobs_before_are_recorded(tmp_path, monkeypatch):
     assert versions["numpy"][-1] == "99.0"
     assert len(versions["numpy"]) == 2
     assert all_versions([None, {"versions": {"numpy": ["1"]}}, {}]) == {"numpy": ["1"]}
-
-
-def test_pdf_on_request_does_not_outlive_its_png(tmp_path):
-    """A PDF file of the same job, as requested together with the PNG file, is kept."""
-    columns = {name: (name, None) for name in ("case", "contact_count", "depth_ratio", "with_gamma")}
-    table = pd.DataFrame({"case": ["sphere"], "contact_count": [9], "depth_ratio": [1.0], "with_gamma": [1.1]})
-    write_table(table, tmp_path / "direct.csv", columns=columns, title="")
-    plot = load_script("plot").main
-    for suffix in ("pdf", "png"):
-        plot(str(tmp_path / f"direct.{suffix}"), figure="direct", table=str(tmp_path / "direct.csv"))
-    assert (tmp_path / "direct.pdf").exists()
-    write_table(table, tmp_path / "direct.csv", columns=columns, title="")
-    plot(str(tmp_path / "direct.png"), figure="direct", table=str(tmp_path / "direct.csv"))
-    assert not (tmp_path / "direct.pdf").exists()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from viscorough.contact.halfspace.operator import Halfspace
-from viscorough.contact.halfspace.tiles import ACCURACY, SIDE, TiledHalfspace, is_suitable, tiles_beyond, tiles_with
+from viscorough.contact.halfspace.tiles import ACCURACY, SIDE, TiledHalfspace, tiles_beyond, tiles_with
 from viscorough.contact.options import SolverOptions
 
 
@@ -71,10 +71,3 @@ def test_tiles_beyond_a_box_hold_all_that_is_outside(box):
     shape, inside = (401, 402), np.zeros((401, 402), bool)
     inside[box[0] : box[0] + box[2], box[1] : box[1] + box[3]] = True
     np.testing.assert_array_equal(tiles_beyond(box, shape), tiles_with(*np.nonzero(~inside), shape))
-
-
-def test_it_is_for_large_grids_and_tolerances_above_its_error():
-    assert is_suitable((1000, 1000), 1.0, 1e-3)
-    assert not is_suitable((1000, 1000), 1.0, 2 * ACCURACY)
-    assert not is_suitable((100, 100), 1.0, 1e-3)
-    assert not is_suitable((1000, 1000), 0.2, 1e-3)

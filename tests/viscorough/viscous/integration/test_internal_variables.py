@@ -5,14 +5,13 @@ import pytest
 from scipy.optimize import brentq
 
 from support.contract import refused
-from support.marching import evented, stepped
+from support.marching import stepped
 from support.media import SPRINGS_AND_DASHPOTS as MEDIA
 from viscorough import Indenter, Load, indent, kinetics, march, self_affine_disc
 from viscorough.basics.errors import ConvergenceError
 from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Springpot
 
 DISC = Indenter(self_affine_disc(0.7, 65, seed=3).heights, 0.01, 0.02)
-SPRINGY = ["maxwell", "solid", "prony"]
 END = 2.0
 
 
@@ -61,25 +60,6 @@ def test_steps_are_of_second_order(curve, name):
         errors.append(abs(result.depth[every::every] / exact.depth[400::400] - 1).max())
     np.testing.assert_allclose(np.log2(np.array(errors[:-1]) / errors[1:]), 2, atol=0.25)
     assert errors[-1] < 5e-4
-
-
-@pytest.mark.parametrize("name", SPRINGY)
-def test_step_is_elastic_and_relaxes_with_the_modulus(curve, name):
-    """At once, a step is the elastic problem with G₀. Dead load in one long step stays compressive.
-
-    A step of depth and its hold: F = f(u) ψ(t), exactly.
-    """
-    medium, force, depth = MEDIA[name], largest_force(curve, MEDIA[name]), np.full(5, 0.7 * curve.depth[-1])
-    result = stepped(DISC, medium, [0.0, 1.0], force=[force, force])
-    at_once = curve.at_force(force / medium.relaxation.instantaneous_modulus)[0]
-    assert result.depth[0] == pytest.approx(at_once, rel=1e-10)
-    assert np.nanmin(result.pressure) >= 0
-    times = np.linspace(0, END, 5)
-    result, expected = (
-        stepped(DISC, medium, times, depth=depth),
-        kinetics(curve, depth=depth, medium=medium, times=times),
-    )
-    np.testing.assert_allclose(result.force, expected.force, rtol=1e-10)
 
 
 def test_unloading_recedes_and_recovers():
@@ -144,23 +124,6 @@ def test_step_of_the_depth_lifts_the_indenter_off_a_dashpot():
     assert motion.receding_from == 1
     with refused("depth steps into the surface at time 2, which takes an infinite force; allowed: ramps"):
         stepped(FLAT, Newtonian(1.0), times, depth=np.append(depth[:-1], 0.11))
-
-
-def test_a_newtonian_indenter_rests_in_its_imprint():
-    """Without a force, or at a constant depth, the contact does not change; the event method agrees."""
-    disc = self_affine_disc(0.7, 9, rms=0.05, seed=2)
-    times, force = [0, 1, 2, 3, 4], np.array([1.0, 1, 0, 0, 0])
-    motion, exact = stepped(disc, 1.0, times, force=force), evented(disc, 1.0, times, force=force)
-    np.testing.assert_allclose(motion.depth, exact.depth, rtol=1e-12)
-    np.testing.assert_array_equal(motion.contact_count, exact.contact_count)
-    assert np.isnan(motion.receding_from)
-    held = stepped(disc, 1.0, times, depth=[0, 0.1, 0.1, 0.1, 0.1])
-    np.testing.assert_array_equal(held.contact_count[1:], held.contact_count[1])
-    np.testing.assert_allclose(held.force[2:], 0, atol=1e-12 * held.force[1])
-    assert np.isnan(held.receding_from)
-    # A step of the force after the rest presses all elements again.
-    again = stepped(disc, 1.0, [*times, 4], force=[*force, 2.0])
-    assert np.count_nonzero(np.nan_to_num(again.pressure)) == motion.contact_count[-1]
 
 
 # ---- the sphere

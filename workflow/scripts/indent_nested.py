@@ -1,6 +1,6 @@
 """Compute the curves of the same discs on several grids; no disc is stored."""
 
-from viscorough.io import netcdf
+from viscorough.io.datasets import write_dataset
 from viscorough_study.ensembles.nested_grids import nested_curves
 from viscorough_study.run.job_log import run_job
 from viscorough_study.run.made_with import made_with_text
@@ -12,8 +12,8 @@ def main(curves, *, case, tolerance, seed):
     curves : file to write; case : arguments of `nested_curves`, from `run.cases.nested_arguments`
     tolerance, seed : further arguments of `nested_curves`
     """
-    content = nested_curves(**case, tolerance=tolerance, seed=seed)
-    netcdf.write(content.with_attributes(**made_with_text()), curves)
+    dataset = nested_curves(**case, tolerance=tolerance, seed=seed)
+    write_dataset(dataset.assign_attrs(made_with_text()), curves)
 
 
 run_job(globals(), main)

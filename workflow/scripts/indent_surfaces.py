@@ -3,8 +3,7 @@
 import logging
 import time
 
-from viscorough.io import netcdf
-from viscorough_study.ensembles.batches import batch_of_curves
+from viscorough_study.ensembles.curve_files import write_curves
 from viscorough_study.ensembles.indentation import indent_realization
 from viscorough_study.ensembles.surface_files import read_surfaces
 from viscorough_study.run.job_log import run_job
@@ -17,17 +16,14 @@ def main(surfaces, curves, *, indentation):
     surfaces : file of the surfaces; curves : file to write
     indentation : further arguments of `indent_realization`
     """
-    members, ensembles = [], []
-    for ensemble, realization, indenter in read_surfaces(surfaces):
+    made = []
+    for settings, realization, indenter in read_surfaces(surfaces):
         start = time.perf_counter()
-        curve, until_x = indent_realization(realization, indenter, **indentation)
+        realization, curve = indent_realization(realization, indenter, **indentation)
         cost = curve.depth.size, curve.operator_applications, time.perf_counter() - start
         logging.info("realization %d: %d levels, %d operator applications, %.2f s", realization.number, *cost)
-        members.append((curve, realization, until_x))
-        if ensemble not in ensembles:
-            ensembles.append(ensemble)
-    settings = {"indentation": indentation, "ensembles": ensembles}
-    netcdf.write(batch_of_curves(members, settings).with_attributes(**made_with_text()), curves)
+        made.append((settings | {"indentation": indentation}, realization, curve))
+    write_curves(made, curves, **made_with_text())
 
 
 run_job(globals(), main)

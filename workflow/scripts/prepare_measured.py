@@ -2,8 +2,8 @@
 
 import logging
 
-from viscorough_study.ensembles.batches import Realization
 from viscorough_study.ensembles.measured import lengths, measured_indenter
+from viscorough_study.ensembles.realization import Realization
 from viscorough_study.ensembles.surface_files import write_surfaces
 from viscorough_study.run.job_log import run_job
 from viscorough_study.run.made_with import made_with_text

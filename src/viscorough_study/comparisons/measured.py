@@ -1,11 +1,9 @@
 """Make the tables of measured surfaces: lengths, power laws of groups of scans, and kinetics."""
 
-import json
 from itertools import chain, product
 
 import pandas as pd
 
-from viscorough.io.curves import unstack_curves
 from viscorough.viscous.kinetics import kinetics
 from viscorough_study.comparisons.media_kinetics import named_media, reached_times
 from viscorough_study.ensembles.averages import abscissa
@@ -40,14 +38,13 @@ def measured_tables(pool, curves, *, names, forces, fit, seed, **loading):
     The names are "measured_scans", "measured_fits" and "measured_kinetics". The columns are `COLUMNS`,
     fit_table.COLUMNS and `KINETICS`, in this order.
     pool : pool of all scans (ensembles.pool)
-    curves : for each scan, the Content of the file that stores its loading curve
+    curves : for each scan, the result of ensembles.curve_files.read_curves for the file of its loading curve
     names, forces : for each scan, its name, and a list of its forces [N]
     fit : settings of the fits (section `scaling`); seed : seed of the bootstrap of the fits
     loading : the arguments `media` and `times` of `measured_motions`
     """
     scans, motions = [], [pd.DataFrame(columns=list(KINETICS))]
-    for name, batch, scan_forces in zip(names, curves, forces, strict=True):
-        (curve,), (settings,) = unstack_curves(batch), json.loads(batch.attributes["settings"])["ensembles"]
+    for name, (((_, curve),), (settings,)), scan_forces in zip(names, curves, forces, strict=True):
         labels = {"scan": name, "group": settings["group"]}
         scans.append(labels | {"file": settings["file"]} | settings["lengths"])
         motions += [motion.assign(**labels) for motion in measured_motions(curve, scan_forces, **loading)]

@@ -7,12 +7,11 @@ power law, X^β/ζ, the exponent of vt/h in time is β a + d ln a/d ln t. A powe
 only while J is a power law.
 """
 
-from itertools import product
+from itertools import chain, product
 
 import numpy as np
 import pandas as pd
 
-from viscorough.io.curves import unstack_curves
 from viscorough.io.medium_files import medium_from_mapping
 from viscorough.viscous.kinetics import kinetics
 from viscorough_study.ensembles.averages import abscissa
@@ -36,25 +35,23 @@ def named_media(cases):
     return {case["name"]: medium_from_mapping({k: v for k, v in case.items() if k != "name"}) for case in cases}
 
 
-def media_of_batches(curves, *, discs, rms_convention, cases, times, force):
-    """Return the `media_table` of loading curves that are stored in files (ensembles.batches).
+def media_of_batches(batches, *, discs, rms_convention, cases, times, force):
+    """Return the `media_table` of loading curves that are stored in files (ensembles.curve_files).
 
-    curves : iterable of the Content of each file; discs : names of the ensembles of discs that are used
+    batches : iterable of lists of (Realization, LoadingCurve), one for each file
+    discs : names of the ensembles of discs that are used
     rms_convention : where the rms height h is measured (fits.conventions); force : F [N]
     cases : media, each described by a mapping, for `named_media`
     times : {"low", "high", "per_decade"}, the range [s] and the number per decade of the times
     """
     ensembles = {}
-    for batch in curves:
-        values = {name: variable.values for name, variable in batch.variables.items()}
-        heights = values[f"rms_{rms_convention}"]
-        chosen = np.flatnonzero(np.isin(values["case"].astype(str), discs))
-        diameter, until_x = (np.broadcast_to(values[name], heights.shape) for name in ("diameter", "until_x"))
-        groups = ensembles.setdefault(values["hurst"].item(), {})
-        for i, curve in zip(chosen, unstack_curves(batch, chosen), strict=True):
-            joined, rms, _ = groups.get(until_x[i], ([], [], None))
-            groups[until_x[i]] = [*joined, curve], [*rms, heights[i]], diameter[i]
-    ensembles = {hurst: list(groups.values()) for hurst, groups in ensembles.items() if groups}
+    for realization, curve in chain.from_iterable(batches):
+        if realization.ensemble in discs:
+            groups = ensembles.setdefault(realization.hurst, {})
+            curves, rms, _ = groups.setdefault(realization.until_x, ([], [], realization.diameter))
+            curves.append(curve)
+            rms.append(realization.rms[rms_convention])
+    ensembles = {hurst: list(groups.values()) for hurst, groups in ensembles.items()}
     return media_table(ensembles, named_media(cases), force=force, times=abscissa(**times))
 
 

@@ -4,8 +4,20 @@ import numpy as np
 
 from viscorough.surfaces.indenter import Indenter
 from viscorough.surfaces.self_affine import cut_disc, square_of_disc
+from viscorough_study.ensembles.realization import Realization
 
 _LENGTHS = ("rms", "diameter", "rms_over", "length_unit")  # settings that scale a surface, but keep its shape
+
+
+def ensemble_discs(name, spawn_key, surface, elements, numbers, *, seed):
+    """Yield (Realization, Indenter) of the discs of an ensemble, with lengths in the unit of each disc.
+
+    name, spawn_key, surface, elements, numbers : description of the ensemble (run.cases.batch_ensembles)
+    seed : root seed of the seeds of all discs
+    """
+    for number in range(*numbers):
+        disc, rms = ensemble_disc(elements, surface, np.random.SeedSequence(seed, spawn_key=(*spawn_key, number)))
+        yield Realization(name, number, surface["hurst"], surface["diameter"], disc.spacing, rms), disc
 
 
 def ensemble_disc(elements, surface, seed):

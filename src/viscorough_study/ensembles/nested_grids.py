@@ -20,11 +20,11 @@ import time
 from functools import cache
 
 import numpy as np
+import xarray as xr
 from ducc0 import fft
 
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import SolverOptions
-from viscorough.io.netcdf import Content, Variable
 from viscorough.surfaces.indenter import Indenter
 from viscorough.surfaces.self_affine import cut_disc
 from viscorough_study.ensembles.averages import abscissa
@@ -118,7 +118,7 @@ def curve_of_disc(disc, hurst, x, tolerance):
 
 
 def nested_curves(hurst, elements, numbers, *, until_x, tolerance, seed, spawn_key):
-    """Compute the curves of the same discs on several grids; return them as a Content.
+    """Compute the curves of the same discs on several grids; return them as a dataset.
 
     hurst : Hurst exponent
     elements : elements across on the grids, from fine to coarse; the waves are drawn for the first grid
@@ -154,7 +154,7 @@ def nested_curves(hurst, elements, numbers, *, until_x, tolerance, seed, spawn_k
         "x": (("abscissa",), x, "dimensionless force F/(4GhL) or time Ft/(4ηhL)", "1"),
     }
     variables = {
-        name: Variable(dimensions, values, {"long_name": text, "units": units})
+        name: (dimensions, values, {"long_name": text, "units": units})
         for name, (dimensions, values, text, units) in described.items()
     }
-    return Content(variables, {"title": "Curves of the same discs on several grids"})
+    return xr.Dataset(variables, attrs={"title": "Curves of the same discs on several grids"})

@@ -9,11 +9,10 @@ realizations.
 import json
 
 import numpy as np
-import pandas as pd
 import xarray as xr
 
-from viscorough.io.curves import unstack_curves
 from viscorough_study.ensembles.averages import DIMENSIONS, ROUNDING, on_abscissae, with_averages
+from viscorough_study.ensembles.curve_files import distinct
 
 VARIABLES = {
     "stiffness": "dimensionless stiffness κ = k/(4GL)",
@@ -28,43 +27,42 @@ REALIZATION_COORDINATES = {
 }
 
 
-def pool_batches(batches, conventions, x):
+def aggregate_curves(batches, conventions, x):
     """Join batches of loading curves into a pool, with the realizations sorted by case and number.
 
     The pool does not depend on how the realizations are divided into batches.
 
-    batches : iterable of (name of a group of ensembles, Content from ensembles.batches.batch_of_curves); only one batch
-        at a time is in memory
-    conventions : definitions of the rms height h in the pool, keys of ensembles.batches.RMS
+    batches : iterable of (name of a group of ensembles, result of ensembles.curve_files.read_curves); only one batch at
+        a time is in memory
+    conventions : definitions of the rms height h in the pool, keys of ensembles.realization.RMS
     x : abscissae X, shape (abscissae,)
     """
-    stiffness, count, realizations, settings = [], [], [], {}
-    for group, batch in batches:
-        curves, values = unstack_curves(batch), {name: variable.values for name, variable in batch.variables.items()}
-        rms = {name: values[f"rms_{name}"] for name in conventions}
-        stored = {name: values[name] for name in ("hurst", "case", "until_x", "number")}
-        realizations.append(pd.DataFrame(stored | {"group": group, "elements": [curve.elements for curve in curves]}))
+    stiffness, count, labels, numbers, settings = [], [], [], [], []
+    for group, (members, described) in batches:
+        realizations, curves = zip(*members, strict=True)
+        rms = {name: [realization.rms[name] for realization in realizations] for name in conventions}
+        on_x = on_abscissae(curves, rms, [realization.diameter for realization in realizations], x)
         # Drop the part of a curve beyond its intended end. Only some surfaces have such a part, so a mean over these
         # parts would be biased.
-        beyond = realizations[-1]["until_x"].to_numpy()[:, None] * (1 + ROUNDING) < x
-        for parts, part in zip((stiffness, count), on_abscissae(curves, rms, values["diameter"], x), strict=True):
+        beyond = np.array([realization.until_x for realization in realizations])[:, None] * (1 + ROUNDING) < x
+        for parts, part in zip((stiffness, count), on_x, strict=True):
             parts.append(np.where(beyond, np.nan, part))
-        made_from = json.loads(batch.attributes["settings"])
-        names = settings.setdefault(values["case"][0], made_from).get("ensembles", [])
-        names += [ensemble for ensemble in made_from.get("ensembles", []) if ensemble not in names]
+        for realization, curve in members:
+            labels.append((realization.hurst, group, realization.ensemble, curve.elements, realization.until_x))
+            numbers.append(realization.number)
+        settings += described
     pool = xr.Dataset(coords={"x": ("abscissa", x), "rms_convention": list(conventions)})
     for (name, text), parts in zip(VARIABLES.items(), (stiffness, count), strict=True):
         pool[name] = (DIMENSIONS, np.concatenate(parts, axis=1), {"long_name": text, "units": "1"})
         parts.clear()
-    table = pd.concat(realizations)
-    for name, (text, units) in REALIZATION_COORDINATES.items():
+    for (name, (text, units)), values in zip(REALIZATION_COORDINATES.items(), zip(*labels, strict=True), strict=True):
         attributes = {"long_name": text} | ({"units": units} if units else {})
-        pool = pool.assign_coords({name: ("realization", table[name].to_numpy(), attributes)})
+        pool = pool.assign_coords({name: ("realization", np.array(values), attributes)})
     pool["x"].attrs = {"long_name": "dimensionless force F/(4GhL) or time Ft/(4ηhL)", "units": "1"}
     pool["rms_convention"].attrs = {"long_name": "where the rms height h is measured"}
-    pool = pool.assign_attrs(title="Loading curves on common abscissae", settings=json.dumps(settings))
-    cases = table.groupby(["group", "case"], sort=False).ngroup()
-    return pool.isel(realization=np.lexsort((table["number"], cases)))
+    pool = pool.assign_attrs(title="Loading curves on common abscissae", settings=json.dumps(distinct(settings)))
+    cases = {case: rank for rank, case in enumerate(dict.fromkeys(label[1:3] for label in labels))}
+    return pool.isel(realization=np.lexsort((numbers, [cases[label[1:3]] for label in labels])))
 
 
 def select(pool, **coordinates):

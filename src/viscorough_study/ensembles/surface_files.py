@@ -7,7 +7,7 @@ import numpy as np
 
 from viscorough.io import netcdf
 from viscorough.surfaces.indenter import Indenter
-from viscorough_study.ensembles.batches import RMS, Realization
+from viscorough_study.ensembles.realization import RMS, Realization
 
 
 def write_surfaces(ensembles, path, **attributes):

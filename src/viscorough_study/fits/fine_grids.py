@@ -55,17 +55,16 @@ EXPONENTS = {
 }
 
 
-def fine_exponents(contents, *, elements_min, seed, sets=SETS):
+def fine_exponents(datasets, *, elements_min, seed, sets=SETS):
     """Return the table of exponents, with the columns `EXPONENTS`.
 
-    contents : Contents from ensembles.nested_grids.nested_curves; batches of the same nest are joined in their order
+    datasets : results of ensembles.nested_grids.nested_curves; batches of the same nest are joined in their order
     elements_min : smallest median of the elements in contact at the lower end of a decade
     seed, sets : seed and number of the simulated sets of discs
     """
     batches = defaultdict(list)
-    for content in contents:
-        grids = tuple(int(across) for across in content.variables["elements"].values)
-        batches[float(content.variables["hurst"].values), grids].append(content)
+    for dataset in datasets:
+        batches[dataset["hurst"].item(), tuple(dataset["elements"].values.tolist())].append(dataset)
     nests = defaultdict(list)
     for (hurst, grids), parts in sorted(batches.items()):
         nests[hurst].append(_Curves(grids, parts))
@@ -86,11 +85,10 @@ class _Curves:
     logarithm, count : ln(vt/h) and elements in contact, shape (discs, sides, grids, abscissae)
     """
 
-    def __init__(self, grids, contents):
-        self.grids, self.x = grids, contents[0].variables["x"].values
+    def __init__(self, grids, datasets):
+        self.grids, self.x = grids, datasets[0]["x"].values
         self.logarithm, self.count = (
-            np.concatenate([content.variables[name].values for content in contents])
-            for name in ("log_velocity", "contact_count")
+            np.concatenate([dataset[name].values for dataset in datasets]) for name in ("log_velocity", "contact_count")
         )
 
     def slopes(self, quantity, first, last):

@@ -49,8 +49,7 @@ def chart_data(discs, combinations, conventions, fraction_min):
     combinations : {name of the ensemble: force [N], viscosity [Pa s], diameter [m], rms [m]}
     conventions, fraction_min : see ensembles.mean_curve
     """
-    dataset = read_dataset(discs)
-    ensembles = list(pool.ensembles(pool.select(dataset, group="base"), "case").values())
+    ensembles = list(pool.ensembles(pool.select(read_dataset(discs), group="base"), "case").values())
     means = [mean_curve(ensemble, conventions, fraction_min) for ensemble in ensembles]
     start = min((mean.x[mean.several][0] for mean in means if mean.several.any()), default=0.0) / 10
     curves = []
@@ -61,7 +60,7 @@ def chart_data(discs, combinations, conventions, fraction_min):
         curve["velocity"] = _rounded(mean.velocity[shown])
         curve["elements"] = _rounded(np.where(np.isfinite(mean.velocity), mean.elements, np.nan)[shown])
         curves.append(curve)
-    across = next(iter(json.loads(dataset.attrs["settings"]).values()))["ensembles"][0]["elements"]
+    across = pool.elements_across(ensembles[0]["elements"].item())
     limits = [
         {"label": "one element in contact", "ratio": 1 / one_element_stiffness(across)},
         {"label": "flat punch", "ratio": 1.0},

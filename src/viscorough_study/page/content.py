@@ -199,7 +199,7 @@ def scale(discs, lines, numbers):
     }
     indentation = pools["discs"]["description"].get("indentation", {})
     whole = {
-        "realizations": min(indentation.get("whole_curves", np.inf), run["realizations"]),
+        "realizations": min(indentation.get("whole", np.inf), run["realizations"]),
         "from_x": indentation.get("short_until_x"),
     }
     as_many = all(run[name] >= paper[name] for name in ("elements", "realizations", "lines"))
@@ -224,7 +224,7 @@ def _pool(path):
     A case in the file is a set of random surfaces with the same settings. Cases form groups.
 
     realizations : number of surfaces of the first case
-    description : settings of the first case
+    description : settings of the first ensemble
     hurst : Hurst exponents of all cases in the group of the first case
     cases_per_hurst : number of cases in the same group that have the Hurst exponent of the first case
     groups : names of all groups
@@ -233,12 +233,10 @@ def _pool(path):
         settings = json.loads(file.getncattr("settings"))
         case, hurst, group = (np.ma.getdata(file[name][...]) for name in ("case", "hurst", "group"))
     base = group == group[0]
-    first = case[0]
-    description = settings[str(first)]
     return {
-        "realizations": int((case == first).sum()),
+        "realizations": int((case == case[0]).sum()),
         "hurst": sorted({float(value) for value in hurst[base]}),
         "cases_per_hurst": len(set(case[base & (hurst == hurst[0])])),
         "groups": list(dict.fromkeys(group.tolist())),
-        "description": description | description["ensembles"][0],
+        "description": settings[0],
     }

@@ -65,7 +65,7 @@ def disc_cases(settings):
 def _combined_discs(settings):
     """Return the cases of the group "base": discs of all combinations of force, viscosity, diameter and rms height."""
     cases, discs, curves = {}, settings["discs"], settings["curves"]
-    ends = _ends(curves, curves["until_x"], whole=curves["whole"], short_until_x=curves["short_until_x"])
+    ends = {name: curves[name] for name in ("tolerance", "until_x", "whole", "short_until_x")}
     base = {"pool": "discs", "group": "base", "indentation": ends, "side_by_side": True}
     base |= {"realizations": discs["realizations"], "batch": discs["batch"]}
     for hurst in settings["hurst"]:
@@ -79,23 +79,12 @@ def _combined_discs(settings):
     return cases
 
 
-def _ends(curves, until_x, *, whole=0, short_until_x=None):
-    """Return the arguments of ensembles.indentation.indent_realization that state the ends and the accuracy of curves.
-
-    curves : section `curves` of the settings; until_x : X at the end of the first `whole` curves, and, by default, of
-        all others
-    """
-    short_until_x = until_x if short_until_x is None else short_until_x
-    ends = {"until_fraction": 1.0, "until_x": until_x, "whole_curves": whole, "short_until_x": short_until_x}
-    return {"tolerance": curves["tolerance"]} | ends
-
-
 def _single_discs(settings):
     """Return the cases of all other discs, which have a single combination, h = L = 1 m."""
     cases, discs, curves = {}, settings["discs"], settings["curves"]
 
     def add(name, pool, group, until_x, ensembles):
-        ends = _ends(curves, until_x)
+        ends = {"tolerance": curves["tolerance"], "until_x": until_x}
         cases[name] = _joint_case(ensembles, discs["single_batch"], group, pool=pool, indentation=ends)
 
     longer, roll_off = discs["longer_period"], discs["roll_off"]

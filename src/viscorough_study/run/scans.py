@@ -24,8 +24,8 @@ def scans(entries, curves):
 
     Raises ValueError if a pattern matches no file, or if two scans have the same name.
     """
-    ends = {"tolerance": curves["measured_tolerance"], "until_fraction": 1.0, "until_x": curves["until_x"]}
-    shared = {"pool": "measured", "realizations": 1, "batch": 1, "indentation": ends | {"whole_curves": 1}}
+    ends = {"tolerance": curves["measured_tolerance"], "until_x": curves["until_x"]}
+    shared = {"pool": "measured", "realizations": 1, "batch": 1, "indentation": ends}
     shared |= {name: field.default for name, field in ScanGroup.model_fields.items() if not field.is_required()}
     result = {}
     for entry in entries:

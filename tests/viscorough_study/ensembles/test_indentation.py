@@ -8,15 +8,14 @@ import pytest
 from support.workflow import load_script, read_settings
 from viscorough.contact.loading_path import indent
 from viscorough.io import netcdf
-from viscorough.io.curves import unstack_curves
-from viscorough_study.ensembles.batches import Realization
+from viscorough_study.ensembles.curve_files import read_curves
 from viscorough_study.ensembles.discs import ensemble_disc
 from viscorough_study.ensembles.flat_punch import punch_stiffness
+from viscorough_study.ensembles.realization import Realization
 from viscorough_study.ensembles.surface_files import write_surfaces
 from viscorough_study.run import cases
 
-ENDS = {"until_x": 3.0, "short_until_x": 0.1, "whole_curves": 1}
-INDENTATION = {"tolerance": 1e-3, "until_fraction": 1.0} | ENDS
+INDENTATION = {"tolerance": 1e-3, "until_x": 3.0, "short_until_x": 0.1, "whole": 1}
 
 
 def curves_of(kind, folder, batch):
@@ -75,14 +74,11 @@ def test_curves_of_lines_end_at_the_first_level_beyond_their_x(tmp_path, until_x
     ensembles = cases.batch_ensembles(cases.line_cases(read_settings("config"))["h04000"], "0000-0002")[:1]
     (batch,) = ensembles = [ensemble | {"points": 4096} for ensemble in ensembles]
     load_script("reduce_lines").main(tmp_path / "curves.nc", ensembles=ensembles, seed=7, until_x=until_x)
-    content = netcdf.read(tmp_path / "curves.nc")
-    for curve in unstack_curves(content):
-        x = curve.force / (4 * batch["surface"]["rms"] * batch["surface"]["length"])
-        assert x[-1] >= until_x > x[-2]
-    lengths = {name: content.variables[name].values.tolist() for name in ("diameter", "spacing", "until_x")}
     length = batch["surface"]["length"]
-    assert lengths == {"diameter": length, "spacing": pytest.approx(length / 4096), "until_x": until_x}
-    np.testing.assert_allclose(content.variables["rms_line"].values, batch["surface"]["rms"])
+    for realization, curve in read_curves(tmp_path / "curves.nc")[0]:
+        x = curve.force / (4 * batch["surface"]["rms"] * length)
+        assert x[-1] >= until_x > x[-2]
+        assert realization[3:] == (length, pytest.approx(length / 4096), {"line": batch["surface"]["rms"]}, until_x)
 
 
 def test_stiffness_of_a_flat_disc_converges_to_the_punch_at_first_order():

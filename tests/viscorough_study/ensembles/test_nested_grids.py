@@ -83,20 +83,20 @@ def test_curve_has_the_stiffness_of_a_contact_at_the_same_force():
 
 def test_curves_depend_on_number_and_grid_of_a_disc_only():
     options = {"until_x": 0.1, "tolerance": 1e-2, "spawn_key": (19,)}
-    three = nested_curves(HURST, [33, 17, 9], [0, 3], seed=5, **options).variables["log_velocity"].values
-    last = nested_curves(HURST, [33, 17, 9], [2, 3], seed=5, **options).variables["log_velocity"].values
+    three = nested_curves(HURST, [33, 17, 9], [0, 3], seed=5, **options)["log_velocity"].values
+    last = nested_curves(HURST, [33, 17, 9], [2, 3], seed=5, **options)["log_velocity"].values
     np.testing.assert_array_equal(last, three[2:])
-    other = nested_curves(HURST, [33, 17, 9], [2, 3], seed=6, **options).variables["log_velocity"].values
+    other = nested_curves(HURST, [33, 17, 9], [2, 3], seed=6, **options)["log_velocity"].values
     assert (last != other).any()
-    alone = nested_curves(HURST, [33], [0, 3], seed=5, **options).variables["log_velocity"].values
+    alone = nested_curves(HURST, [33], [0, 3], seed=5, **options)["log_velocity"].values
     np.testing.assert_array_equal(three[:, :, :1], alone)
 
 
 def test_second_curve_is_that_of_the_other_side():
     options = {"until_x": 0.1, "tolerance": 1e-2}
-    variables = nested_curves(HURST, [33], [0, 1], seed=5, spawn_key=(19,), **options).variables
+    made = nested_curves(HURST, [33], [0, 1], seed=5, spawn_key=(19,), **options)
     disc = disc_of_waves(surface_waves(HURST, 33, np.random.SeedSequence(5, spawn_key=(19, 0))))
     for side, heights in enumerate((disc, -disc)):
-        logarithm, count = curve_of_disc(heights, HURST, variables["x"].values, 1e-2)
-        np.testing.assert_array_equal(variables["log_velocity"].values[0, side, 0], logarithm)
-        np.testing.assert_array_equal(variables["contact_count"].values[0, side, 0], count)
+        logarithm, count = curve_of_disc(heights, HURST, made["x"].values, 1e-2)
+        np.testing.assert_array_equal(made["log_velocity"].values[0, side, 0], logarithm)
+        np.testing.assert_array_equal(made["contact_count"].values[0, side, 0], count)

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from support.study import aggregate, line_curve
-from viscorough.io.curves import stack_curves
-from viscorough.io.netcdf import Variable
 from viscorough_study.ensembles.averages import abscissa
-from viscorough_study.ensembles.pool import ensembles, pool_batches, select
+from viscorough_study.ensembles.pool import aggregate_curves, ensembles, select
+from viscorough_study.ensembles.realization import Realization
 
 X = abscissa(1e-3, 3, 10)
 RMS = np.linspace(0.8, 1.2, 12)
@@ -21,21 +20,22 @@ def curves():
     return [line_curve(gaps) for gaps in heights.max(axis=1, keepdims=True) - heights]
 
 
-def batch(curves, rms, hurst=0.5, case="a_c1", first=0, until_x=3.0):
-    content = stack_curves(curves)
-    names, numbers = np.array([case] * len(curves), dtype=object), first + np.arange(len(curves))
-    values = {"hurst": np.asarray(hurst), "diameter": np.asarray(1.0), "until_x": np.asarray(until_x)}
-    for name, value in (values | {"rms_line": rms, "case": names, "number": numbers}).items():
-        content.variables[name] = Variable(("realization",) if value.ndim else (), value, {})
-    content.attributes["settings"] = json.dumps({"seed": 1})
-    return content
+def batch(curves, rms, hurst=0.5, case="a_c1", first=0, until_x=3.0, names=("a",)):
+    """Return a batch as read_curves does; names : names in the settings of its ensembles"""
+    members = [
+        (Realization(case, first + i, exponent, 1.0, 1 / curve.elements, {"line": height}, until_x), curve)
+        for i, (curve, height, exponent) in enumerate(
+            zip(curves, rms, np.broadcast_to(hurst, len(curves)), strict=True)
+        )
+    ]
+    return members, [{"name": name} for name in names]
 
 
 def test_ensemble_of_a_hurst_exponent_is_one_large_ensemble(curves):
     parts = ((slice(0, 5), "a_c1", 0), (slice(5, 9), "a_c2", 0), (slice(9, 12), "a_c2", 4))
     batches = [("base", batch(curves[part], RMS[part], case=case, first=first)) for part, case, first in parts]
     other = ("variant", batch(curves[:2], RMS[:2], hurst=0.7, case="b_c1"))
-    pool = pool_batches([*batches, other], ["line"], X)
+    pool = aggregate_curves([*batches, other], ["line"], X)
     pooled = ensembles(pool, "hurst")[0.5]
     whole = aggregate(curves, {"line": RMS}, 1.0, X, hurst=0.5, case="a")
     assert set(pooled.data_vars) == set(whole.data_vars)
@@ -52,7 +52,7 @@ def test_ensemble_of_a_hurst_exponent_is_one_large_ensemble(curves):
 def test_mean_is_over_the_curves_required_to_reach_its_abscissa(curves):
     """Shorter curves reach further by chance, depending on the surface; beyond their required end they do not count."""
     short = ("base", batch(curves[2:], RMS[2:], first=2, until_x=0.1))
-    mean = ensembles(pool_batches([("base", batch(curves[:2], RMS[:2])), short], ["line"], X), "hurst")[0.5]
+    mean = ensembles(aggregate_curves([("base", batch(curves[:2], RMS[:2])), short], ["line"], X), "hurst")[0.5]
     whole = aggregate(curves[:2], {"line": RMS[:2]}, 1.0, X, hurst=0.5, case="a")
     below, above = X < 0.11, X > 0.11
     assert mean["realizations_defined"].values[0, below].tolist() == [12] * below.sum()
@@ -64,14 +64,12 @@ def test_mean_is_over_the_curves_required_to_reach_its_abscissa(curves):
 def test_batch_may_hold_several_ensembles(curves):
     """One file has realizations on two grids and with two Hurst exponents."""
     short = line_curve([0.0, 0.5, 1.0])
-    content = batch([*curves[:2], short], np.ones(3), hurst=[0.5, 0.5, 0.7], case="sizes")
-    other = batch([short], np.ones(1), hurst=0.7, case="sizes", first=3)
-    for file, names in ((content, ("a", "b")), (other, ("b", "c"))):
-        file.attributes["settings"] = json.dumps({"ensembles": [{"name": name} for name in names]})
-    mixed = pool_batches([("sizes", content), ("sizes", other)], ["line"], X)
+    first = batch([*curves[:2], short], np.ones(3), hurst=[0.5, 0.5, 0.7], case="sizes", names=("a", "b"))
+    other = batch([short], np.ones(1), hurst=0.7, case="sizes", first=3, names=("b", "c"))
+    mixed = aggregate_curves([("sizes", first), ("sizes", other)], ["line"], X)
     assert mixed["elements"].values.tolist() == [40, 40, 3, 3]
     assert mixed["hurst"].values.tolist() == [0.5, 0.5, 0.7, 0.7]
-    assert [entry["name"] for entry in json.loads(mixed.attrs["settings"])["sizes"]["ensembles"]] == ["a", "b", "c"]
+    assert [entry["name"] for entry in json.loads(mixed.attrs["settings"])] == ["a", "b", "c"]
     assert list(ensembles(mixed, "hurst", "elements")) == [(0.5, 40), (0.7, 3)]
     pooled = ensembles(mixed, "hurst", "elements")[0.5, 40]
     whole = aggregate(curves[:2], {"line": np.ones(2)}, 1.0, X, hurst=0.5, case="a")

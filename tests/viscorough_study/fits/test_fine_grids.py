@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from support.workflow import ROOT
-from viscorough.io.netcdf import Content, Variable
 from viscorough.reference import exponent_beta
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.ensembles.flat_punch import punch_stiffness
@@ -15,7 +15,7 @@ HURST, GRIDS, DISCS = 0.4, (33, 65, 129, 257), (400, 100, 50, 25)
 X = abscissa(1e-5, 0.1, 20)
 
 
-def content(elements, logarithm, x=X):
+def dataset(elements, logarithm, x=X):
     axes = ("surface", "side", "grid", "abscissa")
     count = np.ceil(3.8 * x * np.array(elements)[:, None] ** 1.4)
     values = {
@@ -25,19 +25,19 @@ def content(elements, logarithm, x=X):
         "hurst": ((), np.array(HURST)),
         "x": (("abscissa",), x),
     }
-    return Content({name: Variable(*value, {}) for name, value in values.items()}, {})
+    return xr.Dataset(values)
 
 
 def law_curves(exponent, *, correction=0.02, scatter_of_grids=0.0015):
     """Return curves vt/h = X^β on every grid, plus a correction to β that halves from grid to grid, and scatter."""
-    contents, random = [], np.random.default_rng(1)
+    datasets, random = [], np.random.default_rng(1)
     for position, discs in enumerate(DISCS):
         elements = GRIDS[position::-1]
         slopes = exponent + correction * 0.5 ** np.array([GRIDS.index(across) for across in elements])
         slopes = slopes + 0.03 * random.standard_normal((discs, 2, 1))
         slopes = slopes + scatter_of_grids * random.standard_normal((discs, 2, len(elements)))
-        contents.append(content(elements, slopes[..., None] * np.log(X)))
-    return contents
+        datasets.append(dataset(elements, slopes[..., None] * np.log(X)))
+    return datasets
 
 
 def table(exponent, **options):
@@ -85,16 +85,16 @@ def test_limit_needs_elements_on_the_second_finest_grid(made):
 
 
 def test_batches_of_a_nest_are_joined(made):
-    contents = law_curves(exponent_beta(HURST))
-    last = contents.pop()
-    values = last.variables["log_velocity"].values
-    parts = [content(GRIDS[::-1], values[:10]), content(GRIDS[::-1], values[10:])]
-    assert fine_exponents([*contents, *parts], elements_min=20, seed=1, sets=100).equals(made)
+    datasets = law_curves(exponent_beta(HURST))
+    last = datasets.pop()
+    values = last["log_velocity"].values
+    parts = [dataset(GRIDS[::-1], values[:10]), dataset(GRIDS[::-1], values[10:])]
+    assert fine_exponents([*datasets, *parts], elements_min=20, seed=1, sets=100).equals(made)
 
 
 def test_interface_is_the_velocity_less_the_punch_of_each_grid():
     logarithm = np.full((25, 2, 2, len(X)), 0.3 * np.log(X)) + np.linspace(-1, 1, 25)[:, None, None, None]
-    nest = _Curves((257, 129), [content((257, 129), logarithm)]).slopes("interface", len(X) - 21, len(X) - 1)
+    nest = _Curves((257, 129), [dataset((257, 129), logarithm)]).slopes("interface", len(X) - 21, len(X) - 1)
     for position, across in enumerate(nest.grids):
         interface = np.log(np.exp(logarithm[0, 0, position, -21:]) - X[-21:] / punch_stiffness(across))
         assert nest.values[0, position] == pytest.approx(np.polyfit(np.log(X[-21:]), interface, 1)[0])

@@ -23,9 +23,7 @@ def test_settings_name_scans_by_files_and_patterns(here):
     assert by_name["ground_a_1"]["file"] == "scans/a 1.txt"
     assert (by_name["ground_b"]["unit"], by_name["other_b"]["unit"], by_name["other_b"]["spacing"]) == ("um", None, [])
     assert by_name["ground_b"]["bytes"] == 5
-    assert by_name["ground_b"]["indentation"] == {"tolerance": 1e-3, "until_fraction": 1.0, "until_x": 2.0} | {
-        "whole_curves": 1
-    }
+    assert by_name["ground_b"]["indentation"] == {"tolerance": 1e-3, "until_x": 2.0}
     (absolute,) = scans([{"name": "ground", "files": [str(here / "scans/b.txt")]}], CURVES).values()
     assert absolute["digest"] == by_name["ground_b"]["digest"]
     (here / "scans/b.txt").write_text("b.txu")

@@ -26,15 +26,36 @@ class InNotebooks:
         return f"<table><caption>{html.escape(title)}</caption>{table}</table>{image}"
 
 
+# Units in which lengths in metres are shown: the first one that is not larger than the length.
+LENGTHS = [("m", 1.0), ("mm", 1e-3), ("um", 1e-6), ("nm", 1e-9)]
+
+
+def shown_unit(largest: float, unit: str) -> tuple[str, float]:
+    """Return the unit in which a quantity is shown, and its size in `unit`, which a prefix replaces if it is in metres.
+
+    largest : largest value of the quantity; unit : its unit, of which m, m2 and m s-1 may get a prefix
+    """
+    if unit not in ("m", "m2", "m s-1"):
+        return unit, 1.0
+    sizes = [(f"{name}{unit[1:]}", size**2 if unit == "m2" else size) for name, size in LENGTHS]
+    return next((each for each in sizes if abs(largest) >= each[1]), sizes[-1])
+
+
 def span(values: Any, unit: str = "1") -> str:
-    """Return the first and last value of an array with their unit, such as "1e-09 to 2e-07 m"."""
-    first, last = with_unit(values[0]), with_unit(values[-1], unit)
+    """Return the first and last value of an array with their unit, such as "1 to 200 nm"; see `with_unit`."""
+    ends = (values[0], values[-1])
+    unit, size = shown_unit(max(map(abs, ends)), unit)
+    first, last = with_unit(ends[0] / size), f"{with_unit(ends[1] / size)}{'' if unit == '1' else f' {unit}'}"
     return f"{first} to {last}" if len(values) > 1 else last
 
 
 def with_unit(value: float, unit: str = "1", digits: int = 4) -> str:
-    """Return a number as text with `digits` significant digits, followed by its unit unless the unit is "1"."""
-    return f"{float(value):.{digits}g}{'' if unit == '1' else f' {unit}'}"
+    """Return a number as text with `digits` significant digits, followed by its unit unless the unit is "1".
+
+    Metres get a prefix, such as um.
+    """
+    unit, size = shown_unit(value, unit)
+    return f"{float(value) / size:.{digits}g}{'' if unit == '1' else f' {unit}'}"
 
 
 def unit_power(unit: str, exponent: int) -> str:

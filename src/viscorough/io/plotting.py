@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from viscorough.basics.summaries import shown_unit
 from viscorough.basics.types import Array, FilePath
 from viscorough.io.atomic import atomic_write
 from viscorough.io.netcdf import Content, Variable
@@ -37,8 +38,6 @@ _AXES |= {"force": "force F/G", "normal_force": "force F"}
 _MAPS = ("normal_pressure", "pressure", "heights")
 _CURVES = [("time", "depth", "linear"), ("depth", "normal_force", "log"), ("depth", "force", "log")]
 _CURVES += [("x", "heights", "linear")]
-# Units in which lengths in metres are drawn: the first one that is not larger than the largest length.
-_LENGTHS = [("m", 1.0), ("mm", 1e-3), ("µm", 1e-6), ("nm", 1e-9)]
 
 
 def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
@@ -68,7 +67,7 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
     >>> disc = viscorough.self_affine_disc(0.8, 17, rms=1e-6, diameter=1e-4, length_unit="m", seed=1)
     >>> (axes,) = viscorough.plot(viscorough.indent(disc)).axes
     >>> axes.get_xlabel(), axes.get_ylabel()
-    ('depth (µm)', 'force F/G (m2)')
+    ('depth (µm)', 'force F/G (µm2)')
     """
     suffix = "" if path is None else check_suffix(path, FIGURES)
     variables = (result if isinstance(result, Content) else to_content(result)).variables
@@ -118,8 +117,7 @@ def _draw_curve(axes: Axes, variables: dict[str, Variable], x: str, y: str, scal
 def _drawn(variables: dict[str, Variable], name: str, largest: float | None = None) -> tuple[Array, str]:
     """Return the values of a variable and the label of their axis; `largest` decides the unit of lengths in metres."""
     values, unit = variables[name].values, str(variables[name].attributes.get("units", "1"))
-    if unit == "m":
-        largest = np.nanmax(np.abs(values), initial=0.0) if largest is None else largest
-        unit, length = next((each for each in _LENGTHS if largest >= each[1]), _LENGTHS[-1])
-        values = values / length
+    largest = np.nanmax(np.abs(values), initial=0.0) if largest is None else largest
+    unit, size = shown_unit(largest, unit)
+    values, unit = values / size, unit.replace("um", "µm") if size < 1 else unit
     return values, _AXES.get(name, name) + ("" if unit == "1" else f" ({unit})")

@@ -103,7 +103,7 @@ def _checked_curve(content: Content) -> LoadingCurve:
     for name, convert in OPTIONAL.items():
         if name in content.attributes:
             fields[name] = _converted(name, content.attributes[name], convert, least=OPTIONAL_LEAST.get(name, 0.0))
-    # stack_curves stores counts as floats, since it fills up shorter curves with nan.
+    # Another program may have stored counts as floats.
     with np.errstate(invalid="ignore"):
         count = fields["contact_count"].astype(int)
     if np.array_equal(count, fields["contact_count"]):
@@ -200,20 +200,3 @@ def stack_curves(curves: Sequence[LoadingCurve]) -> Content:
         attributes = {"long_name": long_name} | ({} if kind is str else {"units": "1"})
         variables[name] = Variable(("realization",), values, attributes)
     return Content(variables, {"title": "Loading curves of rigid indenters", "comment": COMMENT})
-
-
-def unstack_curves(content: Content, chosen: Sequence[int] | None = None) -> list[LoadingCurve]:
-    """Convert the content of a NetCDF file, made by stack_curves, to loading curves.
-
-    chosen : positions of the curves to convert; by default all
-
-    Raises the errors of curve_from_content.
-    """
-    stacked = {n: v for n, v in content.variables.items() if v.dimensions == ("realization", "level")}
-    per_curve = {name: content.variables[name].values for name in PER_CURVE if name in content.variables}
-    curves, levels = [], content.variables["levels"].values.tolist()
-    for i in range(len(levels)) if chosen is None else chosen:
-        variables = {name: Variable(("level",), v.values[i, : levels[i]], v.attributes) for name, v in stacked.items()}
-        attributes = content.attributes | {name: values[i] for name, values in per_curve.items()}
-        curves.append(curve_from_content(Content(variables, attributes, content.path)))
-    return curves

@@ -8,7 +8,7 @@ from support.contract import refused
 from support.curves import assert_same_curve, random_curve
 from viscorough import Indenter, load_curve
 from viscorough.io import netcdf
-from viscorough.io.curves import curve_from_content, curve_to_content, stack_curves, unstack_curves
+from viscorough.io.curves import curve_from_content, curve_to_content, stack_curves
 from viscorough.io.netcdf import Content
 
 
@@ -73,22 +73,12 @@ def test_curve_is_read_exactly_as_written(tmp_path, name, levels, about):
         load_curve(tmp_path / "map.nc")
 
 
-def test_stacked_curves_are_read_exactly_as_written(tmp_path):
-    last = random_curve(9, seed=2, elements=2, operator_applications=0)
-    curves = [random_curve(5), random_curve(1, seed=1, method="dense"), last]
+def test_curves_of_one_unit_are_stacked():
+    curves = [random_curve(5), random_curve(1, seed=1, method="dense"), random_curve(9, seed=2)]
     content = stack_curves(curves)
     assert content.variables["depth"].dimensions == ("realization", "level")
     assert np.isnan(content.variables["depth"].values).sum() == 4 + 8
     assert content.variables["levels"].values.tolist() == [5, 1, 9]
-    for name in ("once.nc", "twice.nc"):
-        netcdf.write(content, tmp_path / name)
-        content = netcdf.read(tmp_path / name)
-        for read, curve in zip(unstack_curves(content), curves, strict=True):
-            assert_same_curve(read, curve)
-    damaged = values("stiffness", lambda stiffness: -stiffness)(content)
-    netcdf.write(damaged, tmp_path / "batch.nc")
-    with refused(r"batch\.nc: .*stiffness"):
-        unstack_curves(netcdf.read(tmp_path / "batch.nc"))
     with refused("at least one"):
         stack_curves([])
     with refused("lengths are in m and um; one unit is allowed"):
@@ -96,7 +86,7 @@ def test_stacked_curves_are_read_exactly_as_written(tmp_path):
 
 
 WHOLE, FROM_0 = "a whole number.* is needed", "a number from 0 on.* is needed"
-ALONE = [
+IMPOSSIBLE = [
     (lambda content: Content({"depth": content.variables["depth"]}, {}), r"no numbers force\(level\)"),
     (lambda content: Content(content.variables, {}), "no attribute elements"),
     (values("force", lambda force: force.astype(str)), r"no numbers force\(level\)"),
@@ -112,8 +102,6 @@ ALONE = [
     (attribute("elements", 1), "a whole number from 1 to 1"),
     (attribute("tolerance", 1.0), "a number below 1 is needed"),
     *[(attribute("length_unit", value), "attribute length_unit is") for value in ("m", 3, "N")],
-]
-ALSO_STACKED = [
     (entry("contact_count", 0, 0), "a whole number from 1 to 200"),
     (entry("contact_count", 3, 1), "contact_count must not decrease"),
     (entry("residual", 3, 1e-2), "residual must be from 0 to the tolerance"),
@@ -129,14 +117,11 @@ ALSO_STACKED = [
 ]
 
 
-@pytest.mark.parametrize(("change", "what"), ALONE + ALSO_STACKED)
+@pytest.mark.parametrize(("change", "what"), IMPOSSIBLE)
 def test_impossible_curves_are_refused(change, what):
     curve = random_curve(elements=200, length_unit="um")
     with refused(what):
         curve_from_content(change(curve_to_content(curve)))
-    if (change, what) in ALSO_STACKED:
-        with refused(what):
-            unstack_curves(change(stack_curves([curve])))
 
 
 @pytest.mark.parametrize(

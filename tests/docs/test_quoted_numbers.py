@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pandas as pd
+import yaml
 
 from support.documentation import ROOT, read
 from viscorough_study.fits.fine_sentence import fine_grids_sentence, judged_rows
@@ -35,6 +36,8 @@ def quoted():
     yield "README.md", f"Eq. 12 must be multiplied by {constant}"
     verdict = VALUE.loc[("beta", "B", "H = 0.6"), "verdict"]
     yield "README.md", f"larger square leave the exponent at H = 0.6 {verdict}"
+    minutes = yaml.safe_load(read(ROOT / "resources/published/default_run.yaml"))["minutes"]
+    yield "README.md", f"several weeks in the paper, {minutes} minutes here"
 
 
 def test_sentence_on_fine_grids_is_the_same_everywhere():

@@ -131,7 +131,7 @@ def test_tooltip_of_every_number_names_its_rule_and_the_script(page):
 
 
 def test_page_marks_a_trial_run_and_shows_no_raw_values(page):
-    assert "trial scale: its verdicts mean nothing." in page.text
+    assert "trial: its verdicts mean nothing." in page.text
     assert not re.search(r"\{['\"]|spawn_key|None|nan\b|dtype|<[a-z]", page.text.replace("nan marks points", ""))
 
 

@@ -89,7 +89,7 @@ function update(form, table, output, marked) {
   const law = penetrationLaw(table, values.hurst);
   const result = estimate(law, values);
   const per = (4 * values.rms * values.diameter * values.viscosity) / values.force;
-  const range = `The law holds from ${readable(law.x_low * per)} s to ${readable(law.x_high * per)} s`;
+  const range = `Valid from ${readable(law.x_low * per)} s to ${readable(law.x_high * per)} s`;
   if (result.where) {
     output.textContent = `X = ${readable(result.x)} is ${result.where} its range: no estimate. ${range}.`;
     return;

@@ -177,7 +177,7 @@
       legend: { show: false },
       cursor: { drag: { setScale: false }, points: { show: false } },
       scales: { x: { time: false, distr: 3 }, y: { distr: 3 } },
-      axes: [axis("time without unit, X = Ft/(4ηhL)"), { ...axis("velocity without unit, vt/h"), size: 58 }],
+      axes: [axis("scaled time, X = Ft/(4ηhL)"), { ...axis("scaled velocity, vt/h"), size: 58 }],
       series: [{}, ...data.curves.map((curve) => ({ stroke: curve.color, width: 1.2, points: { show: false } }))],
       hooks: { setCursor: [point], draw: [label, mark] },
     },
@@ -216,7 +216,7 @@
     return group;
   }
 
-  document.getElementById("chart-switches").append(switches("hurst", "H:"), switches("combination", "F, η, L, h:"));
+  document.getElementById("chart-switches").append(switches("hurst", "H:"), switches("combination", "choices of F, η, L, h:"));
   document.getElementById("interactive").classList.add("ready");
   plot.setSize(size());
   window.addEventListener("resize", () => plot.setSize(size()));

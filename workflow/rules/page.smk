@@ -75,6 +75,7 @@ PAGE_TEXTS = [
     PROJECT / "resources/published/fine_exponents.csv",
     PROJECT / "resources/published/other_solvers.csv",
     PROJECT / "resources/published/second_solver.csv",
+    PROJECT / "resources/published/default_run.yaml",
     *(PROJECT / f"docs/results/{figure}.png" for figure in ("local_exponent", *BEYOND_FIGURES)),
     PROJECT / "docs/rules.png",
 ]

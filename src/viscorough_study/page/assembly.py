@@ -80,6 +80,7 @@ def contents_of(project, discs, lines, *, tables, numbers, made_by, changed, fil
         "kinds": KINDS,
         "models": results.records("sufficient_models"),
         "full_map": results.number("one_surface", results.tables["one_surface"]["across"].idxmax(), "across"),
+        "default_run": yaml.safe_load((project / "resources/published/default_run.yaml").read_text("utf-8")),
         "mdr_time": content.mdr_time(results),
         "failures": content.failures(results),
         "outcomes": OUTCOMES,

@@ -63,14 +63,14 @@ def in_short(shown, texts):
     texts : {name of a claim: what it says, in a few words}; claims without a text are left out
     """
     headings = {
-        "Right": ("holds",),
-        "Holds in part, or in one of two readings of the paper (no reading gives all of it)": (
+        "Holds": ("holds",),
+        "Holds in part, or for bodies made in one of two ways (A, B), none of which gives all": (
             "holds in A",
             "holds in B",
             "in part",
         ),
         "Undecided": ("undecided",),
-        "Not found": ("not",),
+        "Fails": ("not",),
     }
     named = [(claim, texts[claim["claim"].name]) for claim in shown if claim["claim"].name in texts]
     groups = {heading: [c for c in named if c[0]["verdict"].word in words] for heading, words in headings.items()}

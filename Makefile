@@ -6,6 +6,7 @@ CORES ?= 2
 UV ?= uv
 BIN := .venv/bin
 SETTINGS ?=
+$(foreach file,$(SETTINGS),$(if $(wildcard $(file)),,$(error SETTINGS=$(file): there is no such file in $(CURDIR))))
 # Modules are compiled when they are first imported: most of them never are.
 PIP_INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile
 SNAKEMAKE = $(BIN)/snakemake --cores $(CORES) $(if $(SETTINGS),--configfile $(SETTINGS))

@@ -22,7 +22,9 @@ def test_error_names_a_damaged_input_that_can_be_made_again(finished):
     with netCDF4.Dataset(curves, "r+") as file:
         file["depth"][0] *= 2
     damaged = curves.read_bytes()
-    output = snakemake(finished, *TEST, "--forcerun", "aggregate_curves", "--", TARGET, fails=True)
+    tries = ("--retries", "1", "--default-resources", "tries=attempt")
+    output = snakemake(finished, *TEST, *tries, "--forcerun", "aggregate_curves", "--", TARGET, fails=True)
+    assert "not tried again after an error: " in output
     message = re.search("ERROR (.*)", output)[1]
     assert message.startswith(f"aggregate_curves, {TARGET}: ValueError: {CURVES}: not readable (")
     assert message.endswith("; remove the file, so that the next run makes it again")

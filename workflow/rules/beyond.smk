@@ -3,6 +3,7 @@
 
 
 rule compare_periodic:
+    """The control of two springs: periodic contact of the same spectra."""
     output:
         csv="results/tables/periodic.csv",
     log:
@@ -12,7 +13,7 @@ rule compare_periodic:
     conda:
         "../envs/viscorough.yaml"
     resources:
-        mem_mb=1000,
+        mem_mb=cases.grid_memory(config["beyond"]["periodic"]["points"], config["beyond"]["periodic"]["surfaces"]),
     params:
         **config["beyond"]["periodic"],
         hursts=config["hurst"],
@@ -25,6 +26,7 @@ rule compare_periodic:
 
 
 rule compare_reduction:
+    """Reduction of dimensionality against boundary elements, surface by surface."""
     output:
         csv="results/tables/reduction.csv",
     log:
@@ -34,7 +36,7 @@ rule compare_reduction:
     conda:
         "../envs/viscorough.yaml"
     resources:
-        mem_mb=1000,
+        mem_mb=cases.grid_memory(config["discs"]["elements"]),
     params:
         **chosen("discs", "elements", "realizations"),
         **config["beyond"]["reduction"],
@@ -49,6 +51,7 @@ rule compare_reduction:
 
 
 rule compare_histories:
+    """Any history of loading and unloading, against direct integration."""
     output:
         csv="results/tables/histories.csv",
     log:
@@ -72,6 +75,7 @@ rule compare_histories:
 
 
 rule compute_media:
+    """Kinetics in other media."""
     input:
         curves=cases.combination_curves(DISCS),
     output:
@@ -98,6 +102,7 @@ rule compute_media:
 
 
 rule fit_interface:
+    """Interface and punch in series."""
     input:
         discs="results/ensembles/discs.nc",
         law="results/ensembles/law.nc",
@@ -127,6 +132,7 @@ rule fit_interface:
 
 
 rule tabulate_literature:
+    """Results in the literature."""
     input:
         scaling="results/tables/scaling.csv",
         interface="results/tables/interface.csv",
@@ -153,6 +159,7 @@ rule tabulate_literature:
 
 
 rule tabulate_calibration:
+    """Calibrated exponents and prefactors."""
     input:
         scaling="results/tables/scaling.csv",
         law="results/ensembles/law.nc",
@@ -179,6 +186,7 @@ rule tabulate_calibration:
 
 
 rule tabulate_sensitivities:
+    """Exponents and prefactors in every convention."""
     input:
         discs="results/ensembles/discs.nc",
         variants="results/ensembles/variants.nc",
@@ -291,6 +299,7 @@ use rule plot_surfaces as plot_histories with:
 
 
 rule make_beyond_page:
+    """The page of what goes beyond the paper."""
     input:
         literature="results/tables/literature.csv",
         figures=expand("results/figures/{figure}.png", figure=BEYOND_FIGURES),

@@ -249,7 +249,8 @@ def surfaces_origin(wildcards):
     return {"ensembles": ensembles, "seed": config["seed"], "source": digest("generate_discs")}
 
 
-def indentation_memory(wildcards):
-    """Return the memory [MB] of a job that indents the surfaces of a batch."""
+def indentation_memory(wildcards, attempt):
+    """Return the memory [MB] of a job that indents the surfaces of a batch; more if a try had too little."""
     case = CASES[wildcards.kind][wildcards.case]
-    return cases.measured_memory(case) if wildcards.kind == "measured" else cases.disc_memory(case)
+    memory = cases.measured_memory(case) if wildcards.kind == "measured" else cases.disc_memory(case)
+    return attempt * memory

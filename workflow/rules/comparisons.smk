@@ -3,6 +3,7 @@
 
 
 rule tabulate_validation:
+    """Comparison with exact solutions."""
     output:
         csv="results/tables/validation.csv",
     log:
@@ -47,6 +48,7 @@ rule require_validation:
 
 
 rule compare_direct:
+    """Direct integration against both readings of the law."""
     output:
         csv="results/tables/direct.csv",
     log:
@@ -70,6 +72,7 @@ rule compare_direct:
 
 
 rule map_failures:
+    """Every method in every stress-test case."""
     output:
         csv="results/tables/failures.csv",
     log:
@@ -96,6 +99,7 @@ PRESSED = ("group", "file", "digest", "spacing", "unit", "preparation", "forces"
 
 
 rule solve_measured_contacts:
+    """Contacts of measured surfaces."""
     output:
         csv="results/tables/measured_contacts.csv",
     log:
@@ -117,6 +121,7 @@ rule solve_measured_contacts:
 
 
 rule evaluate_measured:
+    """Power laws and kinetics of measured surfaces."""
     input:
         pool="results/ensembles/measured.nc",
         curves=cases.pool_curves(CASES, "measured"),

@@ -64,7 +64,7 @@ rule indent_nested:
     conda:
         "../envs/viscorough.yaml"
     resources:
-        mem_mb=lambda wildcards: cases.nested_memory(NESTED[wildcards.nested]),
+        mem_mb=lambda wildcards, attempt: attempt * cases.nested_memory(NESTED[wildcards.nested]),
     params:
         case=lambda wildcards: cases.nested_arguments(NESTED[wildcards.nested], wildcards.batch),
         tolerance=config["curves"]["tolerance"],

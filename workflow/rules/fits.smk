@@ -3,6 +3,7 @@
 
 
 rule fit_scaling:
+    """Power laws in region (b): exponent beta and prefactor zeta."""
     input:
         discs="results/ensembles/discs.nc",
         lines="results/ensembles/lines.nc",
@@ -28,6 +29,7 @@ rule fit_scaling:
 
 
 rule match_mdr:
+    """Lines that represent discs: lambda, and its residual error."""
     input:
         discs="results/ensembles/discs.nc",
         lines="results/ensembles/lines.nc",
@@ -54,6 +56,7 @@ rule match_mdr:
 
 
 rule fit_local_slope:
+    """Local slope within region (b), of the discs and of a control."""
     input:
         discs="results/ensembles/discs.nc",
     output:
@@ -81,6 +84,7 @@ rule fit_local_slope:
 
 
 rule compare_zeta_laws:
+    """Laws of the prefactor by one measure."""
     input:
         discs="results/ensembles/discs.nc",
     output:
@@ -108,6 +112,7 @@ rule compare_zeta_laws:
 
 
 rule fit_fine_exponents:
+    """Exponents of small X on fine grids, and their limits."""
     input:
         curves=lambda wildcards: fine_curves(),
     output:

@@ -82,6 +82,7 @@ PAGE_TEXTS = [
 
 
 rule make_page:
+    """The page of the results."""
     input:
         discs="results/ensembles/discs.nc",
         lines="results/ensembles/lines.nc",

@@ -3,6 +3,7 @@
 
 
 rule measure_methods:
+    """Cost and error of every method."""
     output:
         csv="results/tables/methods.csv",
     log:
@@ -27,6 +28,7 @@ rule measure_methods:
 
 
 rule measure_one_surface:
+    """Cost and error of every model of one surface."""
     output:
         csv="results/tables/one_surface.csv",
     log:
@@ -38,7 +40,7 @@ rule measure_one_surface:
         "../envs/viscorough.yaml"
     threads: ALL_CORES
     resources:
-        mem_mb=2000,
+        mem_mb=cases.grid_memory(config["methods"]["one_surface"]["elements"]),
     params:
         **config["methods"]["one_surface"],
         hurst=[0.4, 0.8],
@@ -51,6 +53,7 @@ rule measure_one_surface:
 
 
 rule compare_mean_accuracy:
+    """Cost and error of every model of the mean of many surfaces."""
     input:
         discs="results/ensembles/discs.nc",
         coarse="results/ensembles/coarse.nc",
@@ -79,6 +82,7 @@ rule compare_mean_accuracy:
 
 
 rule choose_sufficient_models:
+    """The cheapest sufficient model for every question."""
     input:
         one_surface="results/tables/one_surface.csv",
         mean_accuracy="results/tables/mean_accuracy.csv",

@@ -2,6 +2,7 @@
 
 
 rule judge_claims:
+    """Verdicts on the claims of the paper."""
     input:
         discs="results/ensembles/discs.nc",
         tables=[

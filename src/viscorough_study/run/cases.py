@@ -314,12 +314,18 @@ def generation_memory(ensembles):
     return round(BASE_MEMORY + bytes_ / 1e6)
 
 
-def disc_memory(case):
-    """Return the memory [MB] of a job that indents discs.
+def grid_memory(elements, surfaces=0):
+    """Return the memory [MB] of a job that solves contacts on a grid.
 
-    It includes the fields of the solver on a grid twice as wide as the disc.
+    It includes the fields of the solver on a grid twice as wide as the surface.
+    elements : elements across the surface; surfaces : number of further surfaces whose heights the job keeps
     """
-    return round(BASE_MEMORY + 424 * max(ensemble["elements"] for ensemble in case["ensembles"]) ** 2 / 1e6)
+    return round(BASE_MEMORY + (424 + 8 * surfaces) * elements**2 / 1e6)
+
+
+def disc_memory(case):
+    """Return the memory [MB] of a job that indents discs."""
+    return grid_memory(max(ensemble["elements"] for ensemble in case["ensembles"]))
 
 
 def nested_memory(case):

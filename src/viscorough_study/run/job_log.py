@@ -4,6 +4,7 @@ import logging
 import re
 import sys
 import traceback
+from pathlib import Path
 
 from viscorough.basics.errors import ConvergenceError
 from viscorough_study.run.made_with import record_job
@@ -15,6 +16,9 @@ def run_job(names, main):
 
     Do nothing if Snakemake does not run the script.
 
+    An error leaves a file beside the log. If the resource `tries` then says that this is not the first try, the job
+    ends at once, since another try would repeat the error.
+
     names : global names of the script, which contain `snakemake` in a job
     main : function of the named inputs, outputs and params of the rule. The param `source` is left out: it is the
         digest of the source code, which decides about reruns and is recorded.
@@ -22,12 +26,19 @@ def run_job(names, main):
     if job := names.get("snakemake"):
         mark_as_running()
         log_to(job.log[0], f"{job.rule}, {next(iter(job.output))}: ")
+        # Snakemake removes the log before another try.
+        tries, failed = job.resources.get("tries", 1), Path(job.log[0]).with_suffix(".failed")
+        if tries > 1 and failed.is_file():
+            raise ValueError(f"not tried again after an error: {failed.read_text(encoding='utf-8')}")
+        failed.unlink(missing_ok=True)
         record_job(job.rule, job.input, dict(job.params.items()))
         params = {name: value for name, value in job.params.items() if name != "source"}
         try:
             main(**job.input, **job.output, **params)
-        except ValueError as error:
-            if _names_a_damaged_result(error):
+        except Exception as error:
+            if not isinstance(error, MemoryError):
+                failed.write_text(str(error), encoding="utf-8")
+            if isinstance(error, ValueError) and _names_a_damaged_result(error):
                 raise ValueError(f"{error}; remove the file, so that the next run makes it again") from error
             raise
 

@@ -14,10 +14,8 @@ import numpy as np
 from ducc0 import fft
 from numpy.typing import NDArray
 
-from viscorough.basics import units
-from viscorough.basics.arrays import fraction, real_numbers
+from viscorough.basics.arrays import fraction, positive, real_numbers
 from viscorough.basics.compilation import njit
-from viscorough.basics.summaries import unit_power
 from viscorough.basics.types import Array, Integers, Seed
 from viscorough.results.loading_curve import LoadingCurve
 from viscorough.surfaces.indenter import Indenter, check_indenter
@@ -108,12 +106,9 @@ def reduce_heights(
 
     Raises the same errors as `reduce`, and ValueError for heights that are not finite.
     """
-    until_fraction = fraction("reduce: until_fraction", until_fraction)
+    until_fraction = fraction("argument until_fraction", until_fraction)
     if until_force is not None:
-        area = unit_power(length_unit, 2)
-        until_force = units.number(until_force, area, length_unit, "reduce: until_force")
-        if not until_force > 0:
-            raise ValueError(f"reduce: until_force must be positive, not {until_force!r}")
+        until_force = positive("argument until_force", until_force)
 
     depth, force, stiffness, contact_count = _levels(heights, spacing)
     if until_force is not None and force[-1] < until_force:

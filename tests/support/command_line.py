@@ -10,7 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from viscorough.cli import main
+from viscorough.cli.files import with_lengths_in
 from viscorough.io import netcdf
+from viscorough.io.saving import to_content
 
 VISCOROUGH = Path(sys.executable).with_name("viscorough")
 RADIUS = 100.0
@@ -25,6 +27,11 @@ def run(line):
 def values(path):
     """Return {name: values} of the variables in a NetCDF file."""
     return {name: variable.values for name, variable in netcdf.read(path).variables.items()}
+
+
+def save_in(unit, result, path):
+    """Write a result of the library, whose lengths are in metres, with lengths in another unit, as commands do."""
+    netcdf.write(with_lengths_in(to_content(result), unit), path)
 
 
 def python(*arguments, **environment):

@@ -71,8 +71,8 @@ def test_curve_ends_at_the_level_with_exactly_the_fraction_or_force():
 
 def test_invalid_options_are_refused():
     for options, message in (
-        ({"until_fraction": 0}, "reduce: until_fraction must lie in"),
-        ({"until_force": 0}, "reduce: until_force must be positive"),
+        ({"until_fraction": 0}, "argument until_fraction must lie in"),
+        ({"until_force": 0}, "argument until_force: must be a positive number"),
     ):
         with refused(message):
             reduce(self_affine_line(0.5, 10, seed=1), **options)
@@ -114,9 +114,9 @@ def test_line_of_a_map_has_its_spectrum(hurst, outline):
 @pytest.mark.parametrize("scale", [1e-300, 0.5, 1.7e308])
 def test_line_of_a_map_has_its_rms_height_unit_and_length(scale):
     map_ = np.pad(self_affine_square(0.7, 64, seed=1)[:40], 3, constant_values=np.nan)
-    line = line_of_map(Indenter(map_, scale, row_spacing=scale / 2, length_unit="um"), 3)
+    line = line_of_map(Indenter(map_, scale, row_spacing=scale / 2, length_unit="m"), 3)
     assert line.heights.std() == pytest.approx(np.nanstd(map_), rel=1e-12)
-    assert (line.length_unit, line.spacing) == ("um", scale)
+    assert (line.length_unit, line.spacing) == ("m", scale)
     assert line.heights.shape == (70,)  # 70 columns are longer than 46 rows, which are half as far apart
     other = line_of_map(Indenter(map_, 1.0, row_spacing=0.5), 3)
     np.testing.assert_array_equal(line.heights, other.heights)

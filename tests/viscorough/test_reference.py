@@ -111,7 +111,7 @@ def test_functions_agree_with_the_printed_laws(name):
     ],
 )
 def test_impossible_shapes_and_exponents_are_refused(build):
-    with pytest.raises(ValueError, match=r"^[^\n]*(?:allowed: |must be positive)[^\n]*$"):
+    with pytest.raises(ValueError, match=r"^[^\n]*(?:allowed: |must be a positive number)[^\n]*$"):
         build()
 
 

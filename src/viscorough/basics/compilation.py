@@ -1,24 +1,17 @@
 """Compile functions with numba, and keep the compiled code on disk.
 
-numba stores the code of each function in a folder below the user's cache folder (~/.cache/viscorough), or below the
-folder that NUMBA_CACHE_DIR names. If no file can be written there, every process compiles the functions again, and one
-line of the log states this.
-
-Only the public interface of numba is used: options of its decorators, its configuration, and its events. The events
-serve to announce the compiler, to defer interrupts while it runs, and to let one process at a time store code.
+numba stores the code of each function in the folder of these sources (basics.compiled_code). If no file can be written
+there, every process compiles the functions again, and one line of the log states this. Only the public interface of
+numba is used: options of its decorators, its configuration, and its events.
 """
 
 import contextlib
 import fcntl
 import functools
-import gc
 import logging
-import os
 import sys
 import tempfile
-import threading
 from collections.abc import Callable
-from hashlib import sha256
 from pathlib import Path
 from typing import IO, Any
 
@@ -26,9 +19,8 @@ import numba
 from numba.core import config, event
 from numba.extending import register_jitable
 
-from viscorough.basics.interrupts import uninterrupted
+from viscorough.basics.compiled_code import code_folder
 
-_PACKAGE = Path(__file__).parents[1]
 # Compiled code is kept on disk only if the disk has room for this many bytes, about the code of a command. Otherwise
 # numba would raise an error when it stores the code of a function.
 _ROOM = 2_000_000
@@ -56,7 +48,7 @@ def njit(
     options["no_cfunc_wrapper"] = True  # no function is called from C
     if inner:
         return register_jitable(_nrt=counted, **options)(function)
-    folder = _folder()
+    folder = _writable_folder()
     if folder is None:
         return numba.njit(function, **options)
     users_folder = config.CACHE_DIR  # type: ignore[attr-defined]
@@ -68,22 +60,9 @@ def njit(
 
 
 @functools.cache
-def _folder() -> Path | None:
-    """Return the folder for the code of these sources and this version of numba; None if it cannot be written.
-
-    numba compiles a function again if its own file has changed, but does not notice changes of the functions and
-    constants that it imports from other files. Therefore each state of the sources has a folder, whose name is a
-    digest of all files that contain the word njit. A module that defines constants or types of compiled functions
-    contains this word, too.
-    """
-    digest = sha256(numba.__version__.encode())
-    for path in sorted(_PACKAGE.rglob("*.py")):
-        source = path.read_bytes()
-        if b"njit" in source:
-            digest.update(source)
-    caches = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
-    base = config.CACHE_DIR or Path(caches, "viscorough")  # type: ignore[attr-defined]
-    folder = Path(base, digest.hexdigest()[:16])
+def _writable_folder() -> Path | None:
+    """Make the folder of the compiled code; return None if it cannot be written."""
+    folder = code_folder()
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder) as file:
@@ -95,11 +74,6 @@ def _folder() -> Path | None:
         )
         return None
     return folder
-
-
-def _is_ours(compilation: event.Event) -> bool:
-    """Return True if a function of this package is compiled."""
-    return str(compilation.data["dispatcher"].py_func.__module__).startswith("viscorough.")
 
 
 @functools.cache  # so that the message appears only once per process
@@ -125,47 +99,22 @@ class _Compilation(event.Listener):
             _announce_compilation()
 
     def on_end(self, event: event.Event) -> None:
-        folder = _folder() if _is_ours(event) else None
-        if folder and not self._file:
+        if event.kind == "numba:compiler_lock":
+            if self._file:
+                self._file.close()
+            self._file = None
+        elif not self._file and _is_ours(event) and (folder := _writable_folder()):
             with contextlib.suppress(OSError):  # for example if the file system has no locks
                 self._file = (folder / "lock").open("w")
                 fcntl.flock(self._file, fcntl.LOCK_EX)
 
-    def release(self) -> None:
-        """Release the lock, so that other processes can store code."""
-        if self._file:
-            self._file.close()
-        self._file = None
 
-
-class _CompilerLock(event.Listener):
-    """Listener that defers interrupts (Ctrl-C) and garbage collection while numba loads, compiles or stores code.
-
-    An interrupt during a callback of the compiler LLVM into Python would be lost, and an interrupt while numba prepares
-    its first compilation would make every later compilation fail. Garbage collection would take a tenth of the compile
-    time.
-    """
-
-    def __init__(self, compilation: _Compilation) -> None:
-        self._compilation, self._depth, self._afterwards = compilation, 0, contextlib.ExitStack()
-
-    def on_start(self, event: event.Event) -> None:
-        if threading.current_thread() is threading.main_thread():
-            if self._depth == 0:
-                self._afterwards.enter_context(uninterrupted())
-                if gc.isenabled():
-                    gc.disable()
-                    self._afterwards.callback(gc.enable)
-            self._depth += 1
-
-    def on_end(self, event: event.Event) -> None:
-        self._compilation.release()
-        if threading.current_thread() is threading.main_thread():
-            self._depth -= 1
-            if self._depth == 0:
-                self._afterwards.close()
+def _is_ours(event: event.Event) -> bool:
+    """Return True if a function of this package is compiled."""
+    is_compilation = event.kind == "numba:compile"
+    return is_compilation and str(event.data["dispatcher"].py_func.__module__).startswith("viscorough.")
 
 
 _compilation = _Compilation()
 event.register("numba:compile", _compilation)
-event.register("numba:compiler_lock", _CompilerLock(_compilation))
+event.register("numba:compiler_lock", _compilation)

@@ -14,14 +14,11 @@ import os
 import sys
 import warnings
 from importlib import import_module
-from signal import SIG_DFL
 
 import click
 from click.shell_completion import shell_complete
 
-from viscorough.basics.argument_names import spelled_as_options
 from viscorough.basics.errors import ConvergenceError
-from viscorough.basics.interrupts import on_interrupt
 from viscorough.cli import messages, options
 
 # Name, fixed by click, of the environment variable that the shell sets when it asks for completions.
@@ -66,9 +63,7 @@ def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int
     messages.escape_unencodable_characters()
     try:
         with (
-            on_interrupt(SIG_DFL),  # Ctrl-C ends the process at once, also while a library does not return to Python
             warnings.catch_warnings(record=True) as caught,
-            spelled_as_options(),
             commands.make_context("viscorough", arguments, obj=caught) as context,
         ):
             options.refuse_split_quantity(arguments)

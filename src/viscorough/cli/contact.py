@@ -59,19 +59,21 @@ def contact(
     """
     options.require((force is None) != (depth is None), "one of --force and --depth is needed")
     options.elasticity(length_unit="m", **constants)  # raises an error if these constants contradict each other
-    indenter = surface_options.read_indenter(heights, output)
-    modulus, elastic_constants = options.elasticity(length_unit=indenter.length_unit, **constants)
+    indenter, unit = surface_options.read_indenter(heights, output)
+    modulus, elastic_constants = options.elasticity(length_unit=unit, **constants)
 
     from viscorough.contact.one_contact import contact_at
     from viscorough.io.contact_files import contacts_to_content
     from viscorough.io.contact_tables import contact_table, rows_of_contacts, text_of_row
 
-    how: dict[str, Any] = {"force": force, "depth": depth, "tolerance": tolerance, "threads": threads}
+    how: dict[str, Any] = {"tolerance": tolerance, "threads": threads}
+    how |= {"force": options.forces(force, modulus, unit, "--force"), "depth": options.lengths(depth, unit, "--depth")}
     with messages.progress_bar("viscorough contact", progress) as report:
-        contacts: Any = contact_at(indenter, **how, shear_modulus=modulus, progress=report)
+        contacts: Any = contact_at(indenter, **how, progress=report)
     is_table = output.suffix.lower() == ".csv"
-    content = contact_table(contacts) if is_table else contacts_to_content(contacts, indenter.heights)
-    files.write_output(content, output, **heights.attributes(indenter), **elastic_constants)
-    rows, units = rows_of_contacts(contacts[-1:])
-    text = text_of_row(rows[-1], units)
+    content = contact_table(contacts, modulus) if is_table else contacts_to_content(contacts, indenter.heights, modulus)
+    attributes = heights.attributes(indenter, unit) | elastic_constants
+    files.write_output(content, output, "m" if is_table else unit, **attributes)
+    rows, stated = rows_of_contacts(contacts[-1:], modulus)
+    text = text_of_row(rows[-1], stated)
     messages.announce(output, text if len(contacts) == 1 else f"{len(contacts)} levels, the last at {text}")

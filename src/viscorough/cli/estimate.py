@@ -72,7 +72,7 @@ def estimate(
     unit = "m" if rms.unit else units.UNKNOWN
     half_space, about = files.read_half_space(viscosity, medium, unit)
     stated = {"rms": (rms, "m"), "diameter": (diameter, "m"), "force": (force, "N")}
-    numbers = {name: units.number(given, needed, unit, f"--{name}") for name, (given, needed) in stated.items()}
+    numbers = {name: units.in_si(given, needed, unit, f"--{name}") for name, (given, needed) in stated.items()}
     result = estimate(hurst, medium=half_space, times=times, **numbers)
     law, outside = result.law, np.count_nonzero(result.where != "")
     if outside:
@@ -80,7 +80,7 @@ def estimate(
         text += f", X from {law.x_low:.3g} to {law.x_high:.3g}; elsewhere indent a surface made by viscorough generate"
         messages.warn(text)
     if output:
-        files.write_output(estimate_to_content(result, unit), output, hurst=hurst, **numbers, **about)
+        files.write_output(estimate_to_content(result, unit), output, unit, hurst=hurst, **numbers, **about)
         messages.announce(output, f"{len(times)} times, {len(times) - outside} in the range of the law")
     else:
         _print(result, unit)

@@ -5,14 +5,12 @@ from __future__ import annotations
 import os
 import threading
 from pathlib import Path
-from signal import default_int_handler
 from typing import TYPE_CHECKING, Any
 
 import click
 
 import viscorough
 from viscorough.basics import units
-from viscorough.basics.interrupts import on_interrupt
 from viscorough.basics.units import Quantity
 from viscorough.cli import messages
 
@@ -81,19 +79,19 @@ def read_content(path: Path) -> Content:
     return netcdf.read(path)
 
 
-def read_curve(path: Path) -> viscorough.LoadingCurve:
-    """Return the loading curve in a file.
+def read_curve(path: Path) -> tuple[viscorough.LoadingCurve, str]:
+    """Return the loading curve in a file, and the unit of its lengths in the file.
 
     Raises ValueError for a file without a loading curve, and for the curve of a compressible half-space: the kinetics
     of a viscous half-space follow only from the elastic curve of an incompressible half-space.
     """
-    from viscorough.io.curves import curve_from_content
+    from viscorough.io.curves import curve_from_content, length_unit_of
 
     content = read_content(path)
     if (ratio := content.attributes.get("poisson_ratio", 0.5)) != 0.5:
         text = f"{path}: the curve is that of a half-space with Poisson ratio {ratio}"
         raise ValueError(f"{text}; kinetics need one of an incompressible half-space, 0.5")
-    return curve_from_content(content)
+    return curve_from_content(content), length_unit_of(content)
 
 
 def load_from_options(
@@ -105,6 +103,7 @@ def load_from_options(
 ) -> tuple[Any, dict[str, Any]]:
     """Return (load, attributes for the output file) from --force, --force-history or --depth-history.
 
+    length_unit : unit of length of the surface
     columns : {quantity: number of its column in the history}
 
     One of the three options is given; the others are None. The load is a number for --force, and a Load for a history.
@@ -113,7 +112,7 @@ def load_from_options(
         if history is not None:
             load = viscorough.read_load(history, kind, length_unit, columns)
             return load, {kind: printable_name(history)}
-    number = units.number(force, "N", length_unit, "--force")
+    number = units.in_si(force or Quantity(1.0), "N", length_unit, "--force")
     return number, {"force": number}
 
 
@@ -126,12 +125,14 @@ def read_half_space(viscosity: Quantity | None, medium: Path | None, length_unit
         half_space = viscorough.read_medium(medium, length_unit)
         text = medium.read_bytes().decode("utf-8-sig", errors="replace").strip()
         return half_space, {"medium": printable_name(medium), "medium_text": text}
-    number = units.number(viscosity, "Pa s", length_unit, "--viscosity")
+    number = units.in_si(viscosity or Quantity(1.0), "Pa s", length_unit, "--viscosity")
     return number, {"viscosity": number}
 
 
-def write_output(content: Content, output: Path, **attributes: Any) -> None:
+def write_output(content: Content, output: Path, unit: str, /, **attributes: Any) -> None:
     """Write a Content with further attributes: as a table if the name ends in .csv, otherwise as a NetCDF file.
+
+    unit : unit of the lengths in the file, which is the unit of the user's surface
 
     The attribute `warnings` of the file holds the warnings that the command has given so far.
     """
@@ -139,5 +140,39 @@ def write_output(content: Content, output: Path, **attributes: Any) -> None:
 
     if texts := messages.warning_texts(click.get_current_context().obj):
         attributes["warnings"] = "; ".join(texts)
-    with on_interrupt(default_int_handler):  # Ctrl-C raises KeyboardInterrupt, so that no temporary file is left
-        write_content(content.with_attributes(**attributes), output)
+    write_content(with_lengths_in(content, unit).with_attributes(**attributes), output)
+
+
+def with_lengths_in(content: Content, length_unit: str) -> Content:
+    """Return a Content in SI units with its lengths in another unit of length."""
+    if length_unit in ("m", units.UNKNOWN):
+        return content
+    variables = {}
+    for name, variable in content.variables.items():
+        unit = variable.attributes.get("units")
+        if unit in _POWERS_OF_LENGTH:
+            values = in_unit(variable.values, length_unit, _POWERS_OF_LENGTH[unit])
+            attributes = variable.attributes | {"units": unit.replace("m", length_unit, 1)}
+            variable = variable._replace(values=values, attributes=attributes)
+        variables[name] = variable
+    return content._replace(variables=variables)
+
+
+# SI units of the variables that are converted to the unit of the user's surface: {unit: power of the length}.
+_POWERS_OF_LENGTH = {"m": 1, "m2": 2, "m s-1": 1}
+
+
+def in_unit(metres: Any, length_unit: str, power: int = 1) -> Any:
+    """Convert lengths, or powers of lengths, from metres to another unit; keep them if the unit is not known.
+
+    Numbers are rounded to 15 digits, so that a depth that the user has given in this unit is found again exactly. Maps
+    are not rounded.
+    """
+    if length_unit in ("m", units.UNKNOWN):
+        return metres
+    import numpy as np
+
+    values = np.asarray(metres) / units.metres(length_unit) ** power
+    if values.ndim < 2:
+        values = np.array([float(f"{value:.15g}") for value in values.flat]).reshape(values.shape)
+    return values if values.ndim else float(values)

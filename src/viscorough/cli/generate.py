@@ -59,15 +59,16 @@ def generate(
 
     files.check_output(output)
     unit = unit if unit == units.UNKNOWN else units.length_unit(unit)
-    rms, diameter = units.number(rms, unit, unit, "--rms"), units.number(diameter, unit, unit, "--diameter")
+    h, length = units.in_si(rms, "m", unit, "--rms"), units.in_si(diameter, "m", unit, "--diameter")
     long_waves = {"roll_off_wavelength": roll_off, "roll_off_level": float(plateau)}
-    how: dict[str, Any] = {"rms": rms, "length_unit": unit, "seed": seed, **long_waves}
+    how: dict[str, Any] = {"rms": h, "length_unit": "m" if unit != units.UNKNOWN else unit, "seed": seed, **long_waves}
     if elements:
-        made = self_affine.self_affine_disc(hurst, elements, diameter=diameter, **how)
+        made = self_affine.self_affine_disc(hurst, elements, diameter=length, **how)
         text = f"disc of {elements} elements across, {made.elements} elements"
     elif points:
-        made = self_affine.self_affine_line(hurst, points, length=diameter, **how)
+        made = self_affine.self_affine_line(hurst, points, length=length, **how)
         text = f"line of {points} points"
-    about = {"hurst": hurst, "rms": rms, "diameter": diameter, "seed": seed} | (long_waves if roll_off else {})
-    files.write_output(surface_to_content(made), output, **about)
-    messages.announce(output, f"{text}, rms height {rms:g} {unit}, rms slope {made.rms_slope:.3g}")
+    h, length = files.in_unit(h, unit), files.in_unit(length, unit)
+    about = {"hurst": hurst, "rms": h, "diameter": length, "seed": seed} | (long_waves if roll_off else {})
+    files.write_output(surface_to_content(made), output, unit, **about)
+    messages.announce(output, f"{text}, rms height {h:g} {unit}, rms slope {made.rms_slope:.3g}")

@@ -11,7 +11,7 @@ import click
 
 import viscorough
 from viscorough.basics.summaries import with_unit
-from viscorough.basics.units import Quantity, result_units
+from viscorough.basics.units import Quantity
 from viscorough.cli import files, messages, options, surface_options
 
 
@@ -78,18 +78,20 @@ def indent(
     _check_exclusive(settings)
     settings["tolerance"] = tolerance
     options.elasticity(length_unit="m", **constants)  # raises an error if these constants contradict each other
-    indenter = surface_options.read_indenter(heights, output)
-    modulus, elastic_constants = options.elasticity(length_unit=indenter.length_unit, **constants)
+    indenter, unit = surface_options.read_indenter(heights, output)
+    modulus, elastic_constants = options.elasticity(length_unit=unit, **constants)
+    settings["depths"] = options.lengths(depths, unit, "--depths")
+    settings["forces"] = options.forces(forces, modulus, unit, "--forces")
+    stop = options.forces(None if until_force is None else [until_force], modulus, unit, "--until-force")
+    settings["until_force"] = stop[0] if stop else None
 
     from viscorough.io.curves import curve_to_content
 
     with messages.progress_bar("viscorough indent", progress) as report:
-        curve = viscorough.indent(
-            indenter, **_arguments(settings), shear_modulus=modulus, progress=report, threads=threads
-        )
-    attributes = heights.attributes(indenter) | elastic_constants
-    files.write_output(curve_to_content(curve, modulus), output, **attributes)
-    lines = [_last_level(curve, indenter, modulus), curve.grid_error_text]
+        curve = viscorough.indent(indenter, **_arguments(settings), progress=report, threads=threads)
+    attributes = heights.attributes(indenter, unit) | elastic_constants
+    files.write_output(curve_to_content(curve, modulus), output, unit, **attributes)
+    lines = [_last_level(curve, indenter, unit, modulus), curve.grid_error_text]
     messages.announce(output, "\n".join(filter(None, lines)))
 
 
@@ -120,10 +122,13 @@ def _arguments(settings: dict[str, Any]) -> dict[str, Any]:
     return given | {"until_fraction": fraction}
 
 
-def _last_level(curve: viscorough.LoadingCurve, indenter: viscorough.Indenter, modulus: float | None) -> str:
+def _last_level(curve: viscorough.LoadingCurve, indenter: viscorough.Indenter, unit: str, modulus: float | None) -> str:
     """Return a text for the closing line: the number of levels, and the results at the last level."""
-    text = f"{curve.depth.size} levels, the last at depth {with_unit(curve.depth[-1], curve.length_unit, 6)}"
+    depth = with_unit(files.in_unit(curve.depth[-1], unit), unit, 6)
+    text = f"{curve.depth.size} levels, the last at depth {depth}"
     if modulus is not None:
+        from viscorough.io.contact_tables import result_units
+
         read, area = result_units(curve.length_unit, modulus), indenter.spacing * indenter.row_spacing
         text += f", F {read['force'].text(curve.force[-1], 6)}, k {read['stiffness'].text(curve.stiffness[-1])}"
         text += f", contact area {read['area'].text(curve.contact_count[-1] * area)},"

@@ -88,9 +88,9 @@ def kinetics(
     from viscorough.io.motion_files import motion_to_content
 
     files.check_output(output, curve=curve, force_history=force_history, depth_history=depth_history, medium=medium)
-    loading = files.read_curve(curve)
-    half_space, about = files.read_half_space(viscosity, medium, loading.length_unit)
-    load, load_attributes = files.load_from_options(force, force_history, loading.length_unit, depth_history, columns)
+    loading, unit = files.read_curve(curve)
+    half_space, about = files.read_half_space(viscosity, medium, unit)
+    load, load_attributes = files.load_from_options(force, force_history, unit, depth_history, columns)
     grid_error, error_attributes = _stated_grid_error(loading, load)
     about |= error_attributes
     motion = viscorough.kinetics(loading, load, half_space, times)
@@ -103,11 +103,11 @@ def kinetics(
         text = f"at {unknown} of {motion.time.size} times depth, force or velocity are missing: before the first level "
         messages.warn(f"{text}of the curve, or where a step in a springpot has no bound")
     content = motion_to_content(motion)
-    files.write_output(content, output, **about, **load_attributes, correspondence=_CORRESPONDENCE)
-    depth = f"depth {with_unit(motion.depth[-1], loading.length_unit, 6)}"
+    files.write_output(content, output, unit, **about, **load_attributes, correspondence=_CORRESPONDENCE)
+    depth = f"depth {with_unit(files.in_unit(motion.depth[-1], unit), unit, 6)}"
     if depth_history is not None:
-        depth += f" and force {with_unit(motion.force[-1], si_unit('N', loading.length_unit), 6)}"
-    time = with_unit(motion.time[-1], si_unit("s", loading.length_unit), 6)
+        depth += f" and force {with_unit(motion.force[-1], si_unit('N', unit), 6)}"
+    time = with_unit(motion.time[-1], si_unit("s", unit), 6)
     text = f"{motion.time.size} times, {depth} at time {time}"
     messages.announce(output, "\n".join(filter(None, [text, grid_error])))
 
@@ -124,7 +124,7 @@ def _stated_grid_error(curve: "viscorough.LoadingCurve", load: Any) -> tuple[str
         return "", {}
     if not (isinstance(load, viscorough.Load) and load.by_depth):
         return curve.grid_error_text, {"mean_grid_error": curve.mean_grid_error}
-    largest = load.in_units_of(curve.length_unit).values.max()
+    largest = load.values.max()
     error = float(np.interp(largest, curve.depth, curve.force_grid_error))
     if not np.isfinite(error):
         return "", {}

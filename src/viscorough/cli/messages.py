@@ -3,6 +3,7 @@
 import contextlib
 import io
 import os
+import re
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Sequence
@@ -15,6 +16,10 @@ from viscorough.basics.errors import REPORTED, AccuracyWarning, message
 _DELAY = 1.0  # time until progress is shown, in seconds
 # The command line reports errors of these types in one line. An error of any other type is a fault of viscorough.
 ERRORS = (click.ClickException, *REPORTED)
+# Name of an argument in a message of the library, with or without a value: "argument detrend='plane'".
+_ARGUMENT = re.compile(r"\bargument (\w+)(?:=([^\s;,:)]+))?")
+# Options that have another name than the argument of the library.
+_OPTIONS = {"roll_off_wavelength": "--roll-off", "young_modulus": "--young", "medium": "--viscosity"}
 
 
 def announce(output: Path, text: str) -> None:
@@ -29,8 +34,19 @@ def warn(text: str) -> None:
 
 
 def warning_texts(caught: Sequence[warnings.WarningMessage]) -> list[str]:
-    """Return the texts of warnings without repetitions, each on one line."""
-    return list(dict.fromkeys(" ".join(str(warning.message).split()) for warning in caught))
+    """Return the texts of warnings without repetitions, each on one line, with the names of options."""
+    return list(dict.fromkeys(" ".join(with_options(str(warning.message)).split()) for warning in caught))
+
+
+def with_options(text: str) -> str:
+    """Return a message of the library with options of the command line instead of the names of arguments."""
+
+    def option(match: re.Match[str]) -> str:
+        name, value = match.groups()
+        value = "" if value is None else " " + value.strip("'")
+        return _OPTIONS.get(name, f"--{name.replace('_', '-')}") + value
+
+    return _ARGUMENT.sub(option, text)
 
 
 def complain(command: str, text: str) -> None:
@@ -55,7 +71,7 @@ def error_text(error: BaseException) -> str:
     """Return the message of an error without the full stop at its end."""
     if isinstance(error, click.ClickException):
         return error.format_message().strip().removesuffix(".")
-    return message(error)
+    return with_options(message(error))
 
 
 def escape_unencodable_characters() -> None:

@@ -13,7 +13,7 @@ from typing import Any
 import click
 
 from viscorough.basics import units
-from viscorough.basics.elasticity import INCOMPRESSIBLE, shear_modulus_of
+from viscorough.basics.elasticity import INCOMPRESSIBLE, young_over_shear
 from viscorough.basics.units import Quantity
 from viscorough.io import suffixes
 
@@ -79,8 +79,7 @@ class QuantityOption(click.ParamType):
     """Type of options: a finite number above 0, plain or with a unit, such as "5 mN" if "N" is allowed.
 
     The unit must have the same dimension as one of the units `allowed`. The text is converted to a
-    viscorough.basics.units.Quantity. Later, the commands convert this Quantity by units.number to a number in the units
-    of the solvers.
+    viscorough.basics.units.Quantity. Later, the commands convert this Quantity by units.in_si to a number in SI units.
     """
 
     name = "quantity"
@@ -272,10 +271,45 @@ def elasticity(
     G belongs to the incompressible half-space with the same E* = E/(1 − ν²) = 4G [Pa, or consistent units]. G is None
     if no modulus is given.
 
-    Raises ValueError if the options contradict each other, and the errors of units.number.
+    Raises UsageError if the options contradict each other, and the errors of units.in_si.
     """
-    modulus = shear_modulus_of(length_unit, shear_modulus, young, poisson)
+    require(
+        shear_modulus is None or young is None, "--shear-modulus and --young exclude each other; one of them is allowed"
+    )
+    require(poisson is None or young is not None, "--poisson is for use with --young")
     if young is not None:
-        stated = units.number(young, "Pa", length_unit, "--young")
-        return modulus, {"young_modulus": stated, "poisson_ratio": INCOMPRESSIBLE if poisson is None else poisson}
-    return modulus, {} if modulus is None else {"shear_modulus": modulus}
+        modulus, ratio = (
+            units.in_si(young, "Pa", length_unit, "--young"),
+            INCOMPRESSIBLE if poisson is None else poisson,
+        )
+        return modulus / young_over_shear(ratio), {"young_modulus": modulus, "poisson_ratio": ratio}
+    if shear_modulus is None:
+        return None, {}
+    modulus = units.in_si(shear_modulus, "Pa", length_unit, "--shear-modulus")
+    return modulus, {"shear_modulus": modulus}
+
+
+def lengths(quantities: Sequence[Quantity] | None, length_unit: str, name: str) -> list[float] | None:
+    """Convert lengths to metres; plain numbers are in `length_unit`, and stay in consistent units if it is "1"."""
+    return None if quantities is None else [units.in_si(each, "m", length_unit, name) for each in quantities]
+
+
+def forces(
+    quantities: Sequence[Quantity] | None, modulus: float | None, length_unit: str, name: str
+) -> list[float] | None:
+    """Convert forces F to F/G [m²], or in consistent units if `length_unit` is "1".
+
+    modulus : shear modulus G; None if plain numbers are F/G, in the square of `length_unit`
+
+    Raises UsageError for a force with a unit if G is not given.
+    """
+    if quantities is None:
+        return None
+    if modulus is not None:
+        too_small = f"{name}: the shear modulus {modulus:g} is too small; a larger one is needed"
+        require(modulus * 1e300 > 1, too_small)
+        return [units.in_si(each, "N", length_unit, name) / modulus for each in quantities]
+    for each in quantities:
+        require(not each.unit, f"{name} {each}: a force needs --shear-modulus or --young; a plain number is F/G")
+    area = 1.0 if length_unit == units.UNKNOWN else units.metres(length_unit) ** 2
+    return [each.number * area for each in quantities]

@@ -39,5 +39,6 @@ def plot(heights: surface_options.HeightsFile, output: Path) -> None:
         with path_named(file):
             plotting.plot(netcdf.read(file, content), output)
     else:
-        plotting.plot(surface_to_content(heights.indenter(heights.scan(content, dimensions=2))), output)
+        indenter, _ = heights.indenter(heights.scan(content, dimensions=2))
+        plotting.plot(surface_to_content(indenter), output)
     messages.announce(output, f"figure of {file.name}")

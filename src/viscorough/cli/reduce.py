@@ -1,6 +1,7 @@
 """`viscorough reduce`: compute the loading curve of a line of independent springs."""
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -52,6 +53,7 @@ def reduce(
     from viscorough import mdr
     from viscorough.io.curves import curve_to_content, stack_curves
     from viscorough.io.heights import line_of
+    from viscorough.io.scan import in_metres
 
     line_or_map, stated = heights.path, heights.parsed()
     files.check_output(output, heights=line_or_map)
@@ -63,12 +65,13 @@ def reduce(
         text = "--channel and preparation are for maps; this is a line"
         options.require(heights.options.keys() <= {"spacing", "unit"}, text)
         about = {"heights": files.printable_name(line_or_map)}
-        lines = [line_of(line_or_map, content, scan, **stated)]
+        line, unit = line_of(line_or_map, content, scan, **stated)
+        lines: Any = [in_metres(line, unit)]
     else:
         no_table = "--realizations: several curves are no table; a NetCDF file (.nc) is needed"
         options.require((realizations or 1) == 1 or output.suffix.lower() != ".csv", no_table)
-        indenter = heights.indenter(scan)
-        about = heights.attributes(indenter) | {"realizations": realizations or 1, "seed": seed or 0}
+        indenter, unit = heights.indenter(scan)
+        about = heights.attributes(indenter, unit) | {"realizations": realizations or 1, "seed": seed or 0}
         lines = (mdr.line_of_map(indenter, [seed or 0, index]) for index in range(realizations or 1))
         messages.warn(_LIMITS_OF_LINES)
     curves = []
@@ -77,8 +80,9 @@ def reduce(
             curves.append(mdr.reduce(line, until_fraction=until_fraction or 1.0))
             report(len(curves) / (realizations or 1))
     first = curves[0]
-    files.write_output(curve_to_content(first) if len(curves) == 1 else stack_curves(curves), output, **about)
+    content = curve_to_content(first) if len(curves) == 1 else stack_curves(curves)
+    files.write_output(content, output, unit, **about)
     several = f"{len(curves)} curves, the first with " if len(curves) > 1 else ""
-    depth = with_unit(first.depth[-1], first.length_unit, 6)
+    depth = with_unit(files.in_unit(first.depth[-1], unit), unit, 6)
     count = f"{first.contact_count[-1]} of {first.elements} points in contact"
     messages.announce(output, f"{several}{first.depth.size} levels, the last at depth {depth} with {count}")

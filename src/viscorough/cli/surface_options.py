@@ -48,8 +48,8 @@ class HeightsFile:
                 values[name] = _VALUES[name](values[name])
         return values
 
-    def read(self) -> viscorough.Indenter:
-        """Read and prepare the heights. Raises ValueError for invalid heights."""
+    def read(self) -> tuple[viscorough.Indenter, str]:
+        """Read and prepare the heights; return the indenter in metres, and the unit of the user's heights."""
         self.parsed()  # raises an error for a wrong option before the file is read
         return self.indenter(self.scan(self.content(), dimensions=2))
 
@@ -82,18 +82,21 @@ class HeightsFile:
             raise ValueError(f"{self.path}: {text}{spacing}, or --unit {units.UNKNOWN} for consistent units")
         return scan
 
-    def indenter(self, scan: Scan) -> viscorough.Indenter:
-        """Convert the Scan of a map to an indenter, and prepare its heights."""
+    def indenter(self, scan: Scan) -> tuple[viscorough.Indenter, str]:
+        """Convert the Scan of a map to an indenter in metres, prepare its heights, and return it with their unit."""
         from viscorough.io import heights
+        from viscorough.io.scan import in_metres
 
         options = self.parsed()
         options.pop("channel", None)
-        return heights.map_of(self.path, scan, **options)
+        indenter, unit = heights.map_of(self.path, scan, **options)
+        return in_metres(indenter, unit), unit
 
-    def attributes(self, indenter: viscorough.Indenter) -> dict[str, object]:
+    def attributes(self, indenter: viscorough.Indenter, unit: str) -> dict[str, object]:
         """Return attributes for an output file: name of the file of heights, spacings, unit, channel, preparation."""
-        attributes = {"heights": files.printable_name(self.path), "spacing": indenter.spacing}
-        attributes |= {"row_spacing": indenter.row_spacing, "length_unit": indenter.length_unit}
+        attributes: dict[str, object] = {"heights": files.printable_name(self.path)}
+        attributes["spacing"] = files.in_unit(indenter.spacing, unit)
+        attributes |= {"row_spacing": files.in_unit(indenter.row_spacing, unit), "length_unit": unit}
         if "channel" in self.options:
             attributes["channel"] = self.options["channel"]
         steps = {name: value for name, value in self.options.items() if name in _PREPARATION}
@@ -180,8 +183,11 @@ def heights_input(argument: str = "heights") -> Callable[..., Any]:
     return decorate
 
 
-def read_indenter(heights: HeightsFile, output: Path, **inputs: Path | None) -> viscorough.Indenter:
+def read_indenter(heights: HeightsFile, output: Path, **inputs: Path | None) -> tuple[viscorough.Indenter, str]:
     """Check that the output can be written, then read and prepare the heights of a HeightsFile.
+
+    Returns the indenter in metres, and the unit of the user's heights.
+
 
     inputs : other input files of the command, which the output must not replace; see files.check_output
     Raises ValueError for an output that cannot be written and for invalid heights.

@@ -3,8 +3,6 @@
 import sys
 import warnings
 
-from viscorough.basics import units
-from viscorough.basics.argument_names import argument, caller
 from viscorough.basics.arrays import real_number
 from viscorough.basics.errors import AccuracyWarning
 from viscorough.basics.summaries import with_unit
@@ -26,27 +24,25 @@ def check_solvable(
     check_indenter(name, indenter, 2)
     if indenter.spacing * indenter.row_spacing < sys.float_info.min:
         text = f"a spacing of {indenter.spacing:g} is too small to represent areas"
-        raise ValueError(f"{caller(name)}{text}; a smaller unit of length is needed")
-    tolerance = real_number(argument("tolerance", of=name), tolerance)
+        raise ValueError(f"{text}; a smaller unit of length is needed")
+    tolerance = real_number("argument tolerance", tolerance)
     if not 1e-12 <= tolerance <= 0.1:
-        raise ValueError(f"{argument('tolerance', of=name)} must be between 1e-12 and 0.1, not {tolerance!r}")
-    require_threads(name, threads)
+        raise ValueError(f"argument tolerance must be between 1e-12 and 0.1, not {tolerance!r}")
+    require_threads(threads)
     if not isinstance(options, SolverOptions):
         raise TypeError(f"{name}: options: {type(options).__name__}; viscorough.SolverOptions(...) is needed")
     return tolerance
 
 
-def warn_beyond_theory(name: str, indenter: Indenter, depth: float) -> None:
+def warn_beyond_theory(indenter: Indenter, depth: float) -> None:
     """Give an AccuracyWarning if the depth is larger than the longer side of the map.
 
     No warning is given if the unit of length is unknown. The theory is linear in the heights, so the user may then have
     given the heights in a different unit than the spacing.
-
-    name : name of the function that the user called; the message starts with it
     """
     rows, columns = indenter.heights.shape
     extent = max(rows * indenter.row_spacing, columns * indenter.spacing)
-    if indenter.length_unit != units.UNKNOWN and depth > extent * (1 + 1e-9):
+    if indenter.length_unit == "m" and depth > extent * (1 + 1e-9):
         reached, width = (with_unit(length, indenter.length_unit) for length in (depth, extent))
-        text = f"{caller(name)}the depth u, {reached}, is larger than the map is wide, {width}"
+        text = f"the depth u, {reached}, is larger than the map is wide, {width}"
         warnings.warn(f"{text}; the theory ends far below: check the units of force and heights", AccuracyWarning, 3)

@@ -12,7 +12,6 @@ import numpy as np
 
 from viscorough.basics.compilation import njit
 from viscorough.basics.errors import ConvergenceError
-from viscorough.basics.interrupts import uninterrupted
 from viscorough.basics.types import Array, Integers
 from viscorough.contact.halfspace.growing_cholesky import append_element, solve_factored, solve_flat_punch
 from viscorough.contact.options import LATE
@@ -170,11 +169,10 @@ def follow_events(
     reaches `pressure_sum` before another element touches.
     """
     loads = contact.loads
-    with uninterrupted():
-        depth, total, stiffness, members, factor = _follow(
-            elements.influence, elements.row, elements.column, elements.initial_gap, contact.reduced_depth,
-            loads.members, loads.pressure, min(most, elements.initial_gap.size), pressure_sum,
-        )  # fmt: skip
+    depth, total, stiffness, members, factor = _follow(
+        elements.influence, elements.row, elements.column, elements.initial_gap, contact.reduced_depth,
+        loads.members, loads.pressure, min(most, elements.initial_gap.size), pressure_sum,
+    )  # fmt: skip
     count = np.arange(contact.count, contact.count + depth.size)
     # An event is complete if no further element touches at the same depth. The last event is certain to be complete
     # only if all elements are in contact. The first entry is the given contact, which is no event.

@@ -8,7 +8,6 @@ import warnings
 
 import numpy as np
 
-from viscorough.basics.argument_names import caller
 from viscorough.basics.errors import AccuracyWarning
 from viscorough.basics.summaries import with_unit
 from viscorough.contact.prescribed_depth import ContactSolver
@@ -49,14 +48,11 @@ class FreeEdges:
         elif self._depth is None:
             self._depth = contact.depth
 
-    def warn(self, name: str) -> None:
-        """Give an AccuracyWarning if the border of the map carries much of the force.
-
-        name : name of the function that the user called; the message starts with it
-        """
+    def warn(self) -> None:
+        """Give an AccuracyWarning if the border of the map carries much of the force."""
         if self._depth is not None:
             depth = with_unit(self._depth, self._solver.indenter.length_unit)
-            text = f"{caller(name)}from the depth u, {depth}, on, the border of the map carries more than "
+            text = f"from the depth u, {depth}, on, the border of the map carries more than "
             text += f"{100 * _SHARE_OF_FORCE:g} % of the force although less than {100 * _LARGEST_FRACTION:g} % of its "
             text += "elements touch; the results hold for a body that ends there, not for a scan of a larger surface"
             warnings.warn(text, AccuracyWarning, stacklevel=3)

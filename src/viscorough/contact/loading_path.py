@@ -22,12 +22,9 @@ from itertools import accumulate, islice
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscorough.basics import units
-from viscorough.basics.argument_names import argument
-from viscorough.basics.arrays import fraction, increasing, real_number
-from viscorough.basics.elasticity import shear_modulus_of
+from viscorough.basics.arrays import fraction, increasing, positive, real_number, real_numbers
 from viscorough.basics.errors import AccuracyWarning
-from viscorough.basics.types import Array, Progress, Scalar
+from viscorough.basics.types import Array, Progress
 from viscorough.contact.argument_checks import check_solvable, warn_beyond_theory
 from viscorough.contact.dense import ROUNDING
 from viscorough.contact.free_edges import FreeEdges
@@ -70,10 +67,7 @@ def indent(
     depths: ArrayLike | None = None,
     start_fraction: float = 0.0,
     until_fraction: float = 0.9,
-    until_force: float | str = np.inf,
-    shear_modulus: Scalar | str | None = None,
-    young_modulus: Scalar | str | None = None,
-    poisson: float | None = None,
+    until_force: float = np.inf,
     tolerance: float = 1e-3,
     estimate_grid_error: bool = False,
     progress: Progress | None = None,
@@ -104,15 +98,9 @@ def indent(
     until_fraction : float, optional
         Contact fraction at the end of the curve, in (0, 1]; ignored if depths or forces are given. The curve ends at
         most 0.02 beyond it, unless more elements touch almost at once, which a warning states.
-    until_force : float or str, optional
-        Largest F/G of the curve [length²]; ignored if depths or forces are given.
-    shear_modulus : float or str, optional
-        Shear modulus G of an incompressible half-space [Pa], or a text like "2 MPa". If it is given, `forces` and
-        `until_force` are forces F [N], or texts like "5 mN". Depths may be texts, too.
-    young_modulus : float or str, optional
-        Young's modulus E instead of G: G = E/(1 − ν²)/4.
-    poisson : float, optional
-        Poisson ratio ν, above −1 and at most 0.5, with `young_modulus`; by default 0.5.
+    until_force : float, optional
+        Largest F/G of the curve [length²]; ignored if depths or forces are given. A compressible half-space with
+        Young's modulus E and Poisson ratio ν has G = E/(1 − ν²)/4.
     tolerance : float, optional
         Accuracy of every level, between 1e-12 and 0.1. It bounds the gap in contact and the overlap outside the
         contact, each divided by the depth, with rounding included. The relative error of the force is far smaller; the
@@ -163,14 +151,12 @@ def indent(
     if depths is not None and forces is not None:
         raise ValueError("indent: depths and forces exclude each other; one of them is allowed")
     start_fraction, until_fraction = _check_fractions(start_fraction, until_fraction)
-    unit = indenter.length_unit
-    modulus = shear_modulus_of(unit, shear_modulus, young_modulus, poisson)
     request = _CurveRequest(
         start_fraction=start_fraction,
         until_fraction=until_fraction,
-        until_force=_check_until_force(until_force, modulus, unit),
-        depths=_check_depths(depths, unit),
-        forces=_check_forces(forces, modulus, unit),
+        until_force=_check_until_force(until_force),
+        depths=_check_levels("argument depths", depths),
+        forces=_check_levels("argument forces", forces),
         threads=threads,
         options=options,
     )
@@ -179,7 +165,7 @@ def indent(
         curve = _curve_with_grid_errors(request, indenter, tolerance, progress)
     else:
         curve = _curve(request, indenter, tolerance, progress)
-    warn_beyond_theory("indent", indenter, curve.depth[-1])
+    warn_beyond_theory(indenter, curve.depth[-1])
     if depths is None and forces is None:
         _warn_of_end(curve, until_fraction)
     return curve
@@ -189,10 +175,10 @@ def _warn_of_end(curve: LoadingCurve, until_fraction: float) -> None:
     """Give an AccuracyWarning if a curve ends far beyond a contact fraction, unless all elements touch at once."""
     few = np.ceil(until_fraction * curve.elements) + max(_OVERSHOOT * curve.elements, _FEW_AT_ONCE)
     if curve.contact_count[-1] > few and curve.contact_count[0] < curve.elements:
-        reached, asked = f"{curve.contact_fraction[-1]:.3g}", f"{argument('until_fraction')} {until_fraction:g}"
+        reached, asked = f"{curve.contact_fraction[-1]:.3g}", f"argument until_fraction {until_fraction:g}"
         text = f"the curve ends at a contact fraction of {reached}, beyond {asked}"
         text += "; too many elements touch between its last two levels"
-        warnings.warn(f"indent: {text}", AccuracyWarning, stacklevel=3)
+        warnings.warn(text, AccuracyWarning, stacklevel=3)
 
 
 @dataclass(frozen=True)
@@ -219,45 +205,21 @@ class _CurveRequest:
 
 def _check_fractions(start_fraction: float, until_fraction: float) -> tuple[float, float]:
     """Return both contact fractions as floats. Raises ValueError if either is out of range."""
-    until_fraction = fraction("indent: until_fraction", until_fraction)
-    start_fraction = real_number("indent: start_fraction", start_fraction)
+    until_fraction = fraction("argument until_fraction", until_fraction)
+    start_fraction = real_number("argument start_fraction", start_fraction)
     if not 0 <= start_fraction < until_fraction:
         raise ValueError(f"indent: start_fraction must be from 0 to below until_fraction, not {start_fraction!r}")
     return start_fraction, until_fraction
 
 
-def _check_until_force(until_force: float | str, modulus: float | None, unit: str) -> float:
-    """Return the largest force of a curve as F/G [length²]. Raises ValueError unless it is positive.
-
-    modulus : shear modulus G, or None if `until_force` is F/G already
-    unit : unit of length
-    """
-    if not (isinstance(until_force, float | np.floating) and until_force == np.inf):
-        until_force = units.forces_over_modulus(until_force, modulus, unit, argument("until_force"))
-        until_force = real_number(argument("until_force"), until_force)
-    if not until_force > 0:
-        raise ValueError(f"{argument('until_force', of='indent')} must be positive, not {until_force!r}")
-    return until_force
+def _check_until_force(until_force: float) -> float:
+    """Return the largest force F/G of a curve [length²], which may be infinite. Raises ValueError unless above 0."""
+    return np.inf if until_force == np.inf else positive("argument until_force", until_force)
 
 
-def _check_depths(depths: ArrayLike | None, unit: str) -> Array | None:
-    """Return the given depths as numbers [length]. Raises ValueError unless they are positive and increase."""
-    if depths is None:
-        return None
-    numbers = np.atleast_1d(units.numbers(depths, unit, unit, argument("depths")))
-    return increasing(argument("depths", of="indent"), numbers, above_zero=True)
-
-
-def _check_forces(forces: ArrayLike | None, modulus: float | None, unit: str) -> Array | None:
-    """Return the given forces as F/G [length²]. Raises ValueError unless they are positive and increase.
-
-    modulus : shear modulus G, or None if `forces` are F/G already
-    unit : unit of length
-    """
-    if forces is None:
-        return None
-    numbers = np.atleast_1d(units.forces_over_modulus(forces, modulus, unit, argument("forces")))
-    return increasing(argument("forces", of="indent"), numbers, above_zero=True)
+def _check_levels(name: str, values: ArrayLike | None) -> Array | None:
+    """Return the given depths or forces of the levels. Raises ValueError unless they are positive and increase."""
+    return None if values is None else increasing(name, np.atleast_1d(real_numbers(name, values)), above_zero=True)
 
 
 def _curve_with_grid_errors(
@@ -304,7 +266,7 @@ def _curve(request: _CurveRequest, indenter: Indenter, tolerance: float, progres
     force = solver.units.force * np.array([level.pressure_sum for level in levels])
     if not np.isfinite(force).all():
         raise ValueError("indent: forces are too large to represent; a larger unit of length is needed")
-    edges.warn("indent")
+    edges.warn()
     _check_distance(depths, force, "depths", "forces")
     _check_distance(forces, depth, "forces", "depths")
     return LoadingCurve(
@@ -331,7 +293,7 @@ def _check_distance(given: ArrayLike | None, found: Array, name: str, other: str
     if given is not None and (closer := np.diff(found) <= 0).any():
         level, values = int(np.argmax(closer)), np.asarray(given)
         pair = f"{values[level]:.17g} and {values[level + 1]:.17g} are closer than the accuracy"
-        text = f"{argument(name, of='indent')}: {pair}, so that {other} do not increase"
+        text = f"argument {name}: {pair}, so that {other} do not increase"
         raise ValueError(f"{text}; fewer levels or a smaller tolerance are needed")
 
 

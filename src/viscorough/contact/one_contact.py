@@ -9,10 +9,7 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscorough.basics import units
-from viscorough.basics.argument_names import argument, caller
-from viscorough.basics.arrays import increasing
-from viscorough.basics.elasticity import shear_modulus_of
+from viscorough.basics.arrays import increasing, real_numbers
 from viscorough.basics.errors import AccuracyWarning
 from viscorough.basics.summaries import with_unit
 from viscorough.basics.types import Array, Progress, Scalar, Several
@@ -35,11 +32,8 @@ _SHARE_OF_APPROACH = 0.6
 def contact_at(
     indenter: Indenter,
     *,
-    force: Scalar | str | None = None,
-    depth: Scalar | str | None = None,
-    shear_modulus: Scalar | str | None = None,
-    young_modulus: Scalar | str | None = None,
-    poisson: float | None = None,
+    force: Scalar | None = None,
+    depth: Scalar | None = None,
     tolerance: float = 1e-3,
     progress: Progress | None = None,
     threads: int = 1,
@@ -53,9 +47,6 @@ def contact_at(
     *,
     force: Several | None = None,
     depth: Several | None = None,
-    shear_modulus: Scalar | str | None = None,
-    young_modulus: Scalar | str | None = None,
-    poisson: float | None = None,
     tolerance: float = 1e-3,
     progress: Progress | None = None,
     threads: int = 1,
@@ -69,9 +60,6 @@ def contact_at(
     *,
     force: ArrayLike | None = None,
     depth: ArrayLike | None = None,
-    shear_modulus: Scalar | str | None = None,
-    young_modulus: Scalar | str | None = None,
-    poisson: float | None = None,
     tolerance: float = 1e-3,
     progress: Progress | None = None,
     threads: int = 1,
@@ -84,9 +72,6 @@ def contact_at(
     *,
     force: ArrayLike | None = None,
     depth: ArrayLike | None = None,
-    shear_modulus: Scalar | str | None = None,
-    young_modulus: Scalar | str | None = None,
-    poisson: float | None = None,
     tolerance: float = 1e-3,
     progress: Progress | None = None,
     threads: int = 1,
@@ -102,17 +87,10 @@ def contact_at(
     indenter : Indenter
         Indenter with two-dimensional heights.
     force : array_like, optional
-        Force F/G, where G is the shear modulus [length²]. If a modulus is given, `force` is F [N] instead, or a text
-        with a unit like "5 mN". Several forces must increase. Either depth or force must be given.
+        Force F/G, where G is the shear modulus [length²]. Several forces must increase. Either depth or force must be
+        given. A compressible half-space with Young's modulus E and Poisson ratio ν has G = E/(1 − ν²)/4.
     depth : array_like, optional
-        Depth u from first contact [length], or a text with a unit like "20 nm". Several depths must increase.
-    shear_modulus : float or str, optional
-        Shear modulus G of an incompressible half-space [Pa], or a text like "2 MPa". If the unit of length is unknown,
-        G is in units consistent with force and length.
-    young_modulus : float or str, optional
-        Young's modulus E instead of G, in the same units: G = E/(1 − ν²)/4.
-    poisson : float, optional
-        Poisson ratio ν, above −1 and at most 0.5, with `young_modulus`; by default 0.5.
+        Depth u from first contact [length]. Several depths must increase.
     tolerance : float, optional
         Accuracy of the contact, between 1e-12 and 0.1. It bounds the gap in contact and the overlap outside the
         contact, each divided by the depth, with rounding included. The relative errors of the force at a given depth,
@@ -144,21 +122,13 @@ def contact_at(
     >>> contact = viscorough.contact_at(disc, force=0.005)
     >>> round(contact.force, 6)
     0.005
-    >>> tip = viscorough.self_affine_disc(0.7, 17, rms=0.1, diameter=20, length_unit="um", seed=1)
-    >>> contact = viscorough.contact_at(tip, force="20 uN", young_modulus="2 MPa")
-    >>> round(contact.normal_force, 9)
-    2e-05
     """
     tolerance = check_solvable("contact_at", indenter, tolerance, threads, options)
     if (depth is None) == (force is None):
         raise ValueError("contact_at: either depth or force must be given")
-    by_depth, unit = force is None, indenter.length_unit
-    modulus = shear_modulus_of(unit, shear_modulus, young_modulus, poisson)
-    if by_depth:
-        given = units.numbers(depth, unit, unit, argument("depth"))
-    else:
-        given = units.forces_over_modulus(force, modulus, unit, argument("force"))
-    name = argument("depth" if by_depth else "force", of="contact_at")
+    by_depth = force is None
+    name = "argument depth" if by_depth else "argument force"
+    given = real_numbers(name, depth if by_depth else force)
     values = increasing(name, np.atleast_1d(given), above_zero=True)
     # Contacts are solved to half of the tolerance. The other half is left for rescaling the pressures, so that they add
     # up to exactly the force.
@@ -170,9 +140,9 @@ def contact_at(
         edges.see(state)
         # Return the depth or force as given: conversion to reduced units and back would round it.
         depth, force = (float(value), state.force) if by_depth else (state.depth, float(value))
-        contacts.append(_with_maps(solver, state, depth, force, tolerance, modulus))
-    warn_beyond_theory("contact_at", indenter, contacts[-1].depth)
-    edges.warn("contact_at")
+        contacts.append(_with_maps(solver, state, depth, force, tolerance))
+    warn_beyond_theory(indenter, contacts[-1].depth)
+    edges.warn()
     if text := _completeness_warning(indenter, contacts[-1]):
         warnings.warn(text, AccuracyWarning, stacklevel=2)
     return contacts if np.ndim(given) else contacts[0]
@@ -209,23 +179,19 @@ def _approach(progress: Progress, number: int, size: int) -> Progress:
     return lambda share: progress((number + _SHARE_OF_APPROACH * share) / size)
 
 
-def _with_maps(
-    solver: ContactSolver, state: ContactState, depth: float, force: float, tolerance: float, modulus: float | None
-) -> Contact:
+def _with_maps(solver: ContactSolver, state: ContactState, depth: float, force: float, tolerance: float) -> Contact:
     """Return a solved contact with its maps of pressure and gap.
 
     state : solved contact
-    depth, force, tolerance, modulus : values to store in the Contact, in its units
+    depth, force, tolerance : values to store in the Contact, in its units
     """
     if not np.isfinite(state.force):
         text = "the force is too large to represent; a larger unit of length is needed"
-        raise ValueError(f"{caller('contact_at')}{text}")
+        raise ValueError(f"{text}")
     indenter, gap, loads = solver.indenter, gap_map(solver, state), state.member_loads()
     pressure = np.where(np.isnan(gap), np.nan, 0.0)
     pressure[solver.elements.places_on_map(loads.members)] = loads.pressure * solver.units.pressure
     contact = pressure > 0
-    for array in (pressure, gap, contact):
-        array.flags.writeable = False  # saves a copy: a Contact copies writeable arrays only
     return Contact(
         pressure=pressure,
         gap=gap,
@@ -238,7 +204,6 @@ def _with_maps(
         spacing=indenter.spacing,
         row_spacing=indenter.row_spacing,
         length_unit=indenter.length_unit,
-        shear_modulus=modulus,
         column_positions=indenter.column_positions,
         row_positions=indenter.row_positions,
     )
@@ -249,5 +214,5 @@ def _completeness_warning(indenter: Indenter, contact: Contact) -> str:
     if contact.contact_count < contact.elements or np.ptp(indenter.initial_gap[contact.contact]) == 0:
         return ""
     depth = with_unit(contact.depth, indenter.length_unit)
-    text = f"{caller('contact_at')}contact is complete, the contact fraction is 1 at the depth u, {depth}; from "
+    text = f"contact is complete, the contact fraction is 1 at the depth u, {depth}; from "
     return text + "there on the stiffness is that of a flat punch, whatever the heights"

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from viscorough.basics.arrays import is_whole, shown
+from viscorough.basics.arrays import whole_number
 
 # Largest number of array entries in a block. A map of 257 x 257 elements fits into one block, so it needs no threads.
 BLOCK = 1 << 17
@@ -26,13 +26,9 @@ MOST_THREADS = 1024
 _CACHE_LINE = 64
 
 
-def require_threads(name: str, threads: Any) -> None:
-    """Raise ValueError unless `threads` is a whole number from 1 to MOST_THREADS.
-
-    name : name of the function that the user called; the message starts with it
-    """
-    if not is_whole(threads) or not 1 <= threads <= MOST_THREADS:
-        raise ValueError(f"{name}: threads must be a whole number from 1 to {MOST_THREADS}, not {shown(threads)}")
+def require_threads(threads: Any) -> None:
+    """Raise ValueError unless `threads` is a whole number from 1 to MOST_THREADS."""
+    whole_number("argument threads", threads, 1, MOST_THREADS)
 
 
 def run_blocks(

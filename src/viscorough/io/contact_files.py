@@ -49,17 +49,20 @@ _SINGLE_FROM = 1e-4
 _SINGLE_RANGE = (1e-25, 1e30)
 
 
-def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = None) -> Content:
+def contacts_to_content(
+    contacts: Sequence[Contact], heights: Array | None = None, shear_modulus: float | None = None
+) -> Content:
     """Convert contacts of one indenter to the content of a NetCDF file.
 
     The variables MAPS and `heights` have the dimensions (y, x). The coordinates y and x are those of the
     indenter, or 0 at the centre of the map.
     The variables NUMBERS and `patches` (number of contact patches) are single numbers. `patch_area` has the dimension
     `patch` and lists the areas of the patches in decreasing order, filled up with nan. For several contacts, all these
-    variables except `heights` have the first dimension `level`, with one level for each contact. If the contacts have a
-    shear modulus, the variables NUMBERS_WITH_MODULUS and a map of normal pressures are added.
+    variables except `heights` have the first dimension `level`, with one level for each contact.
 
     heights : heights of the indenter, shape (rows, columns) [length]; None to leave them out
+    shear_modulus : G [Pa], or in consistent units; if it is given, the variables NUMBERS_WITH_MODULUS and a map of
+        normal pressures are added
     """
     first = contacts[0]
     unit, level = first.length_unit, ("level",) if len(contacts) > 1 else ()
@@ -80,12 +83,12 @@ def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = Non
     add(("y", "x"), MAPS, **maps)
     variables["contact"].attributes.update(flag_values=np.array([0, 1], np.int8), flag_meanings="apart in_contact")
     add((), NUMBERS, **{name: [getattr(contact, name) for contact in contacts] for name in NUMBERS})
-    if (modulus := first.shear_modulus) is not None:
-        numbers = {name: [getattr(contact, name) for contact in contacts] for name in WITH_MODULUS}
-        pressures = {f"{name}_normal_pressure": f"{name}_pressure" for name in ("mean", "largest")}
-        numbers |= {new: [modulus * getattr(contact, old) for contact in contacts] for new, old in pressures.items()}
+    if shear_modulus is not None:
+        named = {"normal_force": "force", "normal_stiffness": "stiffness"}
+        named |= {f"{name}_normal_pressure": f"{name}_pressure" for name in ("mean", "largest")}
+        numbers = {new: [shear_modulus * getattr(contact, old) for contact in contacts] for new, old in named.items()}
         add((), NUMBERS_WITH_MODULUS, **numbers)
-        add(("y", "x"), _MAP_WITH_MODULUS, normal_pressure=[modulus * each for each in maps["pressure"]])
+        add(("y", "x"), _MAP_WITH_MODULUS, normal_pressure=[shear_modulus * each for each in maps["pressure"]])
     areas = [contact.patches().areas for contact in contacts]
     add((), PATCHES, patches=[len(patch_areas) for patch_areas in areas])
     add(("patch",), PATCHES, patch_area=list(padded(areas)))

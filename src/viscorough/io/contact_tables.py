@@ -1,22 +1,22 @@
 """Convert contacts to tables with one row for each load, in the units in which people read results.
 
 Lengths are in um and areas in um2. If the shear modulus is given, forces are in N, stiffnesses in N/m and pressures in
-MPa. For the units in other cases see viscorough.basics.units.result_units.
+MPa. For the units in other cases see `result_units`.
 """
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from viscorough.basics import units
+from viscorough.basics import summaries
 from viscorough.basics.types import Array
 from viscorough.io.contact_files import NUMBERS, NUMBERS_WITH_MODULUS, PATCHES
 from viscorough.io.curves import ABOUT_GRID, OVER_LEVELS
 from viscorough.io.netcdf import Content, Variable
 from viscorough.results.contact_maps import Contact
 
-# Quantities in tables: {quantity: key under which units.result_units gives its unit; None for counts and shares}.
+# Quantities in tables: {quantity: key under which result_units gives its unit; None for counts and shares}.
 MEASURES = {
     "depth": "length",
     "force": "force",
@@ -46,24 +46,65 @@ Row = dict[str, float | int]
 Rows = tuple[Sequence[Row], dict[str, str]]  # (rows of a table, {column: unit})
 
 
-def rows_of_contacts(contacts: Sequence[Contact], grid_errors: dict[str, Array] | None = None) -> Rows:
+class ResultUnit(NamedTuple):
+    """Unit in which people read a quantity: the name of the unit, and the factor that converts a result of the solver.
+
+    Results of the solver are lengths, areas, and the ratios F/G, k/G and p/G of force, stiffness and pressure to the
+    shear modulus.
+    """
+
+    name: str
+    factor: float
+
+    def text(self, value: float, digits: int = 4) -> str:
+        """Convert a result of the solver to this unit, and return it as text."""
+        return summaries.with_unit(value * self.factor, self.name, digits)
+
+
+def result_units(length_unit: str, shear_modulus: float | None) -> dict[str, ResultUnit]:
+    """Return the units in which people read results: {"length", "area", "force", "stiffness", "pressure": ResultUnit}.
+
+    Lengths are in um and areas in um2. If the shear modulus [Pa] is given, forces are in N, stiffnesses in N/m and
+    pressures in MPa; otherwise they are F/G in um2, k/G in um and p/G without a unit ("1"). If `length_unit` is "1",
+    all numbers are in consistent units, which are called "1".
+    """
+    if length_unit == "1":
+        modulus = 1.0 if shear_modulus is None else shear_modulus
+        factors = {"length": 1.0, "area": 1.0, "force": modulus, "stiffness": modulus, "pressure": modulus}
+        return {name: ResultUnit("1", factor) for name, factor in factors.items()}
+    length, area = ResultUnit("um", 1e6), ResultUnit("um2", 1e12)
+    if shear_modulus is None:
+        return {"length": length, "area": area, "force": area, "stiffness": length, "pressure": ResultUnit("1", 1.0)}
+    return {
+        "length": length,
+        "area": area,
+        "force": ResultUnit("N", shear_modulus),
+        "stiffness": ResultUnit("N/m", shear_modulus),
+        "pressure": ResultUnit("MPa", shear_modulus * 1e-6),
+    }
+
+
+def rows_of_contacts(
+    contacts: Sequence[Contact], shear_modulus: float | None = None, grid_errors: dict[str, Array] | None = None
+) -> Rows:
     """Return (rows of a table, {column: unit}), with one row for each contact.
 
+    shear_modulus : G [Pa], or in consistent units; None if forces are F/G
     grid_errors : {quantity in io.curves.ABOUT_GRID: its value for each contact}; None for a table without grid errors
     """
     values: dict[str, Any] = {name: [] for name in MEASURES if name not in ABOUT_GRID}
     for contact in contacts:
         for name in values:
             values[name].append(contact.patches().areas.size if name == "patches" else getattr(contact, name))
-    return _rows(values | (grid_errors or {}), contacts[0].length_unit, contacts[0].shear_modulus)
+    return _rows(values | (grid_errors or {}), contacts[0].length_unit, shear_modulus)
 
 
 def _rows(values: dict[str, Any], length_unit: str, shear_modulus: float | None) -> Rows:
-    """Convert results of the solver to (rows of a table, {column: unit}), in the units of units.result_units.
+    """Convert results of the solver to (rows of a table, {column: unit}), in the units of result_units.
 
     values : {quantity: its value for each row}
     """
-    read, stated = units.result_units(length_unit, shear_modulus), {}
+    read, stated = result_units(length_unit, shear_modulus), {}
     columns: dict[str, list[float | int]] = {}
     for quantity, numbers in values.items():
         measure = MEASURES[quantity]
@@ -89,7 +130,7 @@ def text_of_row(row: Row, stated: dict[str, str]) -> str:
     """
 
     def text(name: str) -> str:
-        return units.ResultUnit(stated[name], 1.0).text(row[name], 6 if name in _PRESCRIBED else 4)
+        return ResultUnit(stated[name], 1.0).text(row[name], 6 if name in _PRESCRIBED else 4)
 
     parts = [f"depth {text('depth')}"]
     if "normal_force" in row:
@@ -102,9 +143,9 @@ def text_of_row(row: Row, stated: dict[str, str]) -> str:
     return ", ".join([*parts, f"{row['patches']} patch{'' if row['patches'] == 1 else 'es'}"])
 
 
-def contact_table(contacts: Sequence[Contact]) -> Content:
+def contact_table(contacts: Sequence[Contact], shear_modulus: float | None = None) -> Content:
     """Convert contacts of one indenter to the content of a table with one row for each contact."""
-    rows, stated = rows_of_contacts(contacts)
+    rows, stated = rows_of_contacts(contacts, shear_modulus)
     variables = {}
     for name, unit in stated.items():
         values: Array = np.array([row[name] for row in rows])

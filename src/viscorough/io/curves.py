@@ -62,14 +62,14 @@ def curve_to_content(curve: LoadingCurve, shear_modulus: float | None = None) ->
 
     The dimension of all variables is `level`. If the curve has grid errors, the variables ABOUT_GRID are added.
 
-    shear_modulus : G [Pa], or in consistent units if the unit of length is not known. If G is given, the variables
+    shear_modulus : G [Pa], or in consistent units. If G is given, the variables
         WITH_MODULUS are added
     """
     values, unit = {name: getattr(curve, name) for name in OVER_LEVELS}, curve.length_unit
     values |= {name: getattr(curve, name) for name in ABOUT_GRID if getattr(curve, name) is not None}
     if shear_modulus is not None:
-        values["normal_force"] = curve.force * (shear_modulus * units.square_metres(unit))
-        values["normal_stiffness"] = curve.stiffness * (shear_modulus * units.in_metres(unit))
+        values["normal_force"] = shear_modulus * curve.force
+        values["normal_stiffness"] = shear_modulus * curve.stiffness
     attributes = {"title": "Loading curve of a rigid indenter", "comment": COMMENT}
     attributes |= {name: getattr(curve, name) for name in PER_CURVE}
     defaults = {field.name: field.default for field in dataclasses.fields(curve)}
@@ -79,7 +79,7 @@ def curve_to_content(curve: LoadingCurve, shear_modulus: float | None = None) ->
 
 
 def curve_from_content(content: Content) -> LoadingCurve:
-    """Convert the content of a NetCDF file, made by curve_to_content, to a LoadingCurve.
+    """Convert the content of a NetCDF file, made by curve_to_content, to a LoadingCurve with lengths in metres.
 
     Raises ValueError, which names the file, if the content holds no curve, if the units of other variables contradict
     the unit of the depth, and if the numbers contradict each other by more than the tolerance of the curve.
@@ -109,14 +109,19 @@ def _checked_curve(content: Content) -> LoadingCurve:
     if np.array_equal(count, fields["contact_count"]):
         fields["contact_count"] = count
     fraction = fields.pop("contact_fraction", None)
-    curve = LoadingCurve(**fields, length_unit=_length_unit(content))
+    unit = length_unit_of(content)
+    if unit not in ("m", units.UNKNOWN):
+        metres = units.metres(unit)
+        for name in ("depth", "force", "stiffness"):
+            fields[name] = fields[name] * metres ** OVER_LEVELS[name][1]
+    curve = LoadingCurve(**fields, length_unit=units.UNKNOWN if unit == units.UNKNOWN else "m")
     _check_contact(curve)
     if fraction is not None and not np.allclose(fraction, curve.contact_fraction, rtol=_ROUNDING, atol=0):
         raise ValueError(f"contact_fraction must be contact_count over {curve.elements} elements; {_NEEDED}")
     return curve
 
 
-def _length_unit(content: Content) -> str:
+def length_unit_of(content: Content) -> str:
     """Return the unit of the depth; "1" if the Content states no unit for it.
 
     Raises ValueError if the unit of another variable is not the required power of the unit of the depth.

@@ -10,14 +10,13 @@ from typing import Any
 import numpy as np
 
 from viscorough.basics import units
-from viscorough.basics.argument_names import argument, spelled
 from viscorough.basics.errors import AccuracyWarning
 from viscorough.basics.types import FilePath
 from viscorough.io import matrices, netcdf
 from viscorough.io.atomic import path_named, reading
 from viscorough.io.instruments import read_instrument
 from viscorough.io.netcdf_heights import read_netcdf
-from viscorough.io.scan import Distance, Scan, to_indenter
+from viscorough.io.scan import Distance, Scan, in_metres, to_indenter
 from viscorough.surfaces.indenter import Indenter
 from viscorough.surfaces.preparation import doubts, prepare
 
@@ -39,10 +38,10 @@ def read_heights(
     *,
     unit: str | None = None,
     channel: str | None = None,
-    scale: float | str | units.Quantity | None = None,
+    scale: float | str | None = None,
     **preparation: Any,
 ) -> Indenter:
-    """Read a map of heights as an Indenter.
+    """Read a map of heights as an Indenter, with lengths in metres.
 
     The highest point touches first. Points that the file marks as missing are nan and lie outside the indenter. x runs
     along each row and y from row to row, in the order of the file. An AccuracyWarning is given for each defect of the
@@ -59,12 +58,12 @@ def read_heights(
         in the unit of the heights; texts have a unit, such as "0.2 um". Needed if the file states no spacing, as
         matrices do.
     unit : str, optional
-        Unit of length of the heights, such as "um", if the file states none. By default all numbers are in consistent
-        units, such as SI units.
+        Unit of length of the heights in the file, such as "um", if the file states none. By default all numbers are
+        in consistent units, and are not converted.
     channel : str, optional
         Name or number (from 0) of the map in a file with several maps. The default is the variable `heights` in a
         NetCDF file, and the first channel with heights in a file of an instrument.
-    scale : float or str or units.Quantity, optional
+    scale : float or str, optional
         Factor that converts the numbers in a file to heights, if these numbers have no unit of length. Examples are
         "0.053 nm" per count of a detector, or "53 nm" per radian if the file states radians.
     preparation : Any
@@ -89,15 +88,15 @@ def read_heights(
     ...     np.save(f"{folder}/heights.npy", 1e-2 * np.random.default_rng(1).normal(size=(8, 8)))
     ...     surface = viscorough.read_heights(f"{folder}/heights.npy", 0.5, unit="um")
     >>> surface.heights.shape, surface.spacing, surface.length_unit
-    ((8, 8), 0.5, 'um')
+    ((8, 8), 5e-07, 'm')
     """
     content = content_of(path)
     scan = scan_of(path, content, channel=channel, dimensions=2, flip=bool(preparation.get("flip")))
-    return map_of(path, scan, spacing, unit=unit, scale=scale, **preparation)
+    return in_metres(*map_of(path, scan, spacing, unit=unit, scale=scale, **preparation))
 
 
 def read_line(path: FilePath, spacing: Distance | None = None, *, unit: str | None = None) -> Indenter:
-    """Read the heights of a line as an Indenter, for the method of dimensionality reduction (`reduce`).
+    """Read the heights of a line as an Indenter in metres, for the method of dimensionality reduction (`reduce`).
 
     An AccuracyWarning is given for a file that viscorough did not write: `reduce` does not hold for a line that was cut
     from a surface.
@@ -134,7 +133,7 @@ def read_line(path: FilePath, spacing: Distance | None = None, *, unit: str | No
     (64,)
     """
     content = content_of(path)
-    return line_of(path, content, scan_of(path, content, dimensions=1), spacing, unit=unit)
+    return in_metres(*line_of(path, content, scan_of(path, content, dimensions=1), spacing, unit=unit))
 
 
 def content_of(path: FilePath) -> bytes:
@@ -164,61 +163,63 @@ def scan_of(
             scan = read_netcdf(path, content, channel, dimensions, flip=flip)
         elif matrices.is_npy(content, name) or matrices.is_text(content):
             if channel is not None:
-                raise ValueError(f"{argument('channel')} {channel}: a file of this kind holds one map; leave it out")
+                raise ValueError(f"argument channel {channel}: a file of this kind holds one map; leave it out")
             read = matrices.read_npy if matrices.is_npy(content, name) else matrices.read_text
             scan = read(content, name)
         else:
             scan = read_instrument(path, content, channel)
     if scan.heights.ndim not in ((1, 2) if dimensions is None else (dimensions,)):
-        reads = spelled("viscorough reduce", "read_line") if dimensions == 2 else spelled("indent", "read_heights")
         needed = "a map" if dimensions != 1 else "a line"
-        other = f"; {reads} reads {'lines' if dimensions == 2 else 'maps'}" if scan.heights.ndim in (1, 2) else ""
+        other = {1: "; lines are for reduce", 2: "; maps are for indent"}.get(scan.heights.ndim, "")
         raise ValueError(f"{path}: heights have the shape {scan.heights.shape}; {needed} is needed{other}")
     return scan
 
 
 def map_of(
     path: FilePath, scan: Scan, spacing: Any = None, *, unit: str | None = None, scale: Any = None, **preparation: Any
-) -> Indenter:
-    """Convert a Scan of a map to a prepared Indenter, with the warnings of `read_heights`."""
+) -> tuple[Indenter, str]:
+    """Convert a Scan of a map to a prepared Indenter and its unit, with the warnings of `read_heights`."""
     with path_named(path):
-        indenter = prepare(to_indenter(scan, spacing, unit, scale), **preparation)
-    texts = [*doubts(indenter), *_doubts_about_numbers(scan, indenter)]
+        indenter, length_unit = to_indenter(scan, spacing, unit, scale)
+        indenter = prepare(indenter, **preparation)
+    texts = [*doubts(indenter), *_doubts_about_numbers(scan, indenter, length_unit)]
     if (slope := indenter.rms_slope) > _STEEP_SLOPE:
         texts.append(f"the rms slope is {slope:.2g}; the theory holds for small slopes, below about {_STEEP_SLOPE}")
     for text in texts:
         warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=3)
-    return indenter
+    return indenter, length_unit
 
 
-def line_of(path: FilePath, content: bytes, scan: Scan, spacing: Any = None, *, unit: str | None = None) -> Indenter:
-    """Convert a Scan of a line to an Indenter, with the warnings of `read_line`.
+def line_of(
+    path: FilePath, content: bytes, scan: Scan, spacing: Any = None, *, unit: str | None = None
+) -> tuple[Indenter, str]:
+    """Convert a Scan of a line to an Indenter and its unit, with the warnings of `read_line`.
 
     content : content of the file at `path`
     """
     with path_named(path):
-        indenter = to_indenter(scan, spacing, unit)
-    texts = _doubts_about_numbers(scan, indenter)
+        indenter, length_unit = to_indenter(scan, spacing, unit)
+    texts = _doubts_about_numbers(scan, indenter, length_unit)
     if not (netcdf.is_netcdf(content) and netcdf.is_own(path, content)):
         texts.append(_CUT)
     for text in texts:
         warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=3)
-    return indenter
+    return indenter, length_unit
 
 
-def _doubts_about_numbers(scan: Scan, indenter: Indenter) -> list[str]:
+def _doubts_about_numbers(scan: Scan, indenter: Indenter, unit: str) -> list[str]:
     """Return one text for each doubt about the size of the field and the precision of the heights."""
     texts = []
     spacings = (indenter.row_spacing, indenter.spacing)[-indenter.heights.ndim :]
-    metres = units.in_metres(indenter.length_unit)
+    metres = 1.0 if unit == units.UNKNOWN else units.metres(unit)
     sides = [points * spacing * metres for points, spacing in zip(indenter.heights.shape, spacings, strict=True)]
-    if indenter.length_unit != units.UNKNOWN and not _LEAST_SIDE <= min(sides) <= max(sides) <= _LARGEST_SIDE:
+    if unit != units.UNKNOWN and not _LEAST_SIDE <= min(sides) <= max(sides) <= _LARGEST_SIDE:
         size = " by ".join(f"{side:.3g} m" for side in sides[::-1])
         text = f"the field is {size} wide; fields are from 1 nm to 10 m wide"
-        texts.append(f"{text}: check {argument('spacing')} and {argument('unit')}")
+        texts.append(f"{text}: check argument spacing and argument unit")
     if scan.heights.dtype.kind == "f" and scan.heights.dtype.itemsize <= np.dtype(np.float32).itemsize:
-        step = float(np.spacing(np.nanmax(np.abs(np.ma.filled(scan.heights, np.nan)))))
-        if step > _LARGEST_STEP * (rms := float(np.nanstd(np.ma.filled(scan.heights, np.nan).astype(float)))) > 0:
+        step = float(np.spacing(np.nanmax(np.abs(scan.heights))))
+        if step > _LARGEST_STEP * (rms := float(np.nanstd(scan.heights.astype(float)))) > 0:
             text = f"heights are stored in steps of {step:.2g}, {step / rms:.2g} times the rms height"
             texts.append(f"{text}; subtract their mean before they are stored in single precision")
     return texts

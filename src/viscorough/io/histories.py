@@ -13,7 +13,6 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from viscorough.basics import units
-from viscorough.basics.argument_names import argument
 from viscorough.basics.arrays import whole_number
 from viscorough.basics.errors import AccuracyWarning
 from viscorough.basics.types import Array, FilePath
@@ -45,8 +44,8 @@ def read_load(
     kind : {"force", "depth"}, optional
         Quantity to read.
     length_unit : str, optional
-        Unit of length of the indenter, such as "um". Times are converted to s, forces to N and depths to this unit. "1"
-        if it is not known: numbers are then in consistent units, and the headings have no units.
+        Unit of length of the indenter, "1" if it is not known: numbers are then in consistent units, and the headings
+        have no units. Otherwise times are converted to s, forces to N and depths to m.
     columns : mapping, optional
         Numbers of columns, from 1, such as ``{"time": 1, "force": 3}``, for a file without headings. Times are then in
         s, forces in N and depths in the unit of length of the indenter.
@@ -68,7 +67,7 @@ def read_load(
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     with open(f"{folder}/force.csv", "w") as file:
     ...         _ = file.write("time (ms),force (mN)\\n0,1\\n500,3\\n")
-    ...     load = viscorough.read_load(f"{folder}/force.csv", length_unit="um")
+    ...     load = viscorough.read_load(f"{folder}/force.csv", length_unit="m")
     >>> load.time.tolist(), load.force.tolist()
     ([0.0, 0.5], [0.001, 0.003])
     """
@@ -76,7 +75,8 @@ def read_load(
         raise ValueError(f"kind {kind!r}; allowed: force, depth")
     if columns is not None:
         columns = _checked_columns(columns, kind)
-    wanted = {"time": "s", kind: "N" if kind == "force" else length_unit}
+    unit = units.UNKNOWN if length_unit == units.UNKNOWN else "m"
+    wanted = {"time": "s", kind: "N" if kind == "force" else unit}
     with reading(path, f"columns of times and {kind}s are needed"):
         with open(path, "rb") as file:
             content = file.read()
@@ -90,10 +90,10 @@ def read_load(
 def _checked_columns(columns: Mapping[str, int], kind: str) -> dict[str, int]:
     """Return the numbers of the columns of times and of the quantity `kind`."""
     if not isinstance(columns, Mapping) or not {"time", kind} <= columns.keys() <= {"time", "force", "depth"}:
-        raise ValueError(f"{argument('columns')}: the numbers of the columns of time and {kind} are needed")
-    chosen = {name: whole_number(f"{argument('columns')} {name}", columns[name], 1) for name in ("time", kind)}
+        raise ValueError(f"argument columns: the numbers of the columns of time and {kind} are needed")
+    chosen = {name: whole_number(f"argument columns {name}", columns[name], 1) for name in ("time", kind)}
     if chosen["time"] == chosen[kind]:
-        raise ValueError(f"{argument('columns')}: time and {kind} are in the same column; two columns are needed")
+        raise ValueError(f"argument columns: time and {kind} are in the same column; two columns are needed")
     return chosen
 
 
@@ -121,13 +121,15 @@ def _read(
         rows, numbers, width = rows[1:], numbers[1:], len(rows[0])
     else:
         places, factors = [columns[name] - 1 for name in wanted], [1.0, 1.0]
+        if "depth" in wanted and length_unit != units.UNKNOWN:
+            factors[1] = units.metres(length_unit)
         width = len(rows[0])
         if delimiter == ",":
             refuse_decimal_commas([",".join(cells) for cells in rows])
         if max(places) >= width:
-            raise Refused(f"{argument('columns')} {max(places) + 1}: line {first} has {width} columns")
+            raise Refused(f"argument columns {max(places) + 1}: line {first} has {width} columns")
         if any(re.search(r"[^\W\d]", re.sub(r"(?i)nan|\de[-+]?\d", "", rows[0][place])) for place in places):
-            text = f"line {first} is a heading, with {argument('columns')}; name its columns {_named(wanted)}"
+            text = f"line {first} is a heading, with argument columns; name its columns {_named(wanted)}"
             raise Refused(f"{text}, or remove the heading")
     found: list[list[float]] = [[], []]
     for number, cells in zip(numbers, rows, strict=True):
@@ -156,7 +158,7 @@ def _places(headings: Sequence[str], wanted: Mapping[str, str], length_unit: str
         if len(found) != 1:
             heads = ", ".join(repr(text.strip()[:30]) for text in headings[:6])
             text = f"{'no' if not found else 'more than one'} column is named {name}; the headings are {heads}"
-            way = f"{_named(wanted)} are needed, or {argument('columns')} for a file without headings"
+            way = f"{_named(wanted)} are needed, or argument columns for a file without headings"
             raise Refused(f"{text}; {way}")
         (place, match), stated = found[0], (found[0][1][2] or "").strip()
         if bool(stated) != (length_unit != units.UNKNOWN):

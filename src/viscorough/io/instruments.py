@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from viscorough.basics import units
-from viscorough.basics.argument_names import argument
 from viscorough.basics.errors import AccuracyWarning
 from viscorough.basics.types import FilePath
 from viscorough.io.atomic import Refused
@@ -51,7 +50,7 @@ def read_instrument(path: FilePath, content: bytes, channel: str | None = None) 
         heights = np.ma.filled(np.ma.asarray(topography.heights()).astype(float), np.nan).T
         heights[np.abs(heights) >= _LARGEST_HEIGHT] = np.nan
     if others:
-        way = f"{argument('channel')} chooses another of {', '.join(map(repr, others))}"
+        way = f"argument channel chooses another of {', '.join(map(repr, others))}"
         warnings.warn(f"{path}: the channel {chosen.channel_id!r} is read; {way}", AccuracyWarning, stacklevel=2)
     if chosen.is_periodic:
         text = "states that it is one period of a periodic surface; it is treated as a body with edges"
@@ -112,7 +111,7 @@ def _refuse_tiff(path: FilePath, content: bytes) -> None:
     """Raise ValueError for a TIFF file, with the line that makes a map of it."""
     if content.startswith(_TIFF):
         line = f'import numpy as np, tifffile; np.save("map.npy", tifffile.imread("{path}"))'
-        text = f"TIFF is not read; {argument('spacing')} then states the size of its pixels; .npy is made in Python"
+        text = "TIFF is not read; argument spacing then states the size of its pixels; .npy is made in Python"
         raise Refused(f"{text}: {line}")
 
 

@@ -12,7 +12,6 @@ from pathlib import Path
 
 import numpy as np
 
-from viscorough.basics.argument_names import spelled
 from viscorough.basics.types import Array
 from viscorough.io.atomic import Refused
 from viscorough.io.scan import Scan
@@ -161,9 +160,9 @@ def _refuse_tables(table: Array, name: str, delimiter: str | None) -> None:
     distinct = [np.unique(table[:, column]).size for column in (0, 1)]
     are_points = columns <= _MOST_OF_TABLES and min(distinct) > 1 and distinct[0] * distinct[1] <= 2 * rows
     if few < 3 or (few == 3 and many > 3) or (few <= _MOST_OF_TABLES and many > _ELONGATION * few) or are_points:
-        reads = f"{spelled('viscorough reduce', 'read_line')} reads a profile from a single column of heights"
         raise Refused(
-            f"a table of {rows} by {columns} may hold points or a profile; {reads}, and .npy maps of any shape"
+            f"a table of {rows} by {columns} may hold points or a profile; a profile has a single column of heights, "
+            "and a map of any shape is read from .npy"
         )
     for vectors, edge in ((table.T, "column"), (table, "row")):
         for start in (0, 1):  # the corner of a table with positions along both edges may hold any number

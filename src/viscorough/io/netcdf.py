@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscorough import __version__
-from viscorough.basics.arrays import read_only
 from viscorough.basics.summaries import si_unit, unit_power
 from viscorough.basics.types import Array, FilePath
 from viscorough.io.atomic import Refused, atomic_write, reading
@@ -170,7 +169,7 @@ def opened(path: FilePath, content: bytes | None = None, *, checked: bool = True
 
 
 def unpacked(variable: netCDF4.Variable) -> NDArray[Any]:
-    """Return the values of a variable as netCDF4 unpacks them, as a masked array if any are missing.
+    """Return the values of a variable as netCDF4 unpacks them; missing values are nan.
 
     Raises ValueError for attributes that netCDF4 would ignore: marks of missing values that have another type than the
     variable, such as a missing value of 1e20 in double precision in a variable of single precision, and scales that
@@ -197,7 +196,9 @@ def unpacked(variable: netCDF4.Variable) -> NDArray[Any]:
         number = netCDF4.default_fillvals[np.dtype(variable.dtype).str[1:]]
         text = f"bytes of {variable.name} have the value {number}, which may mark missing values"
         raise Refused(f"{text}; the attribute _FillValue is needed")
-    return values
+    if np.ma.isMaskedArray(values):
+        values = np.ma.filled(values if values.dtype.kind == "f" else values.astype(float), np.nan)
+    return np.asarray(values)
 
 
 def read(path: FilePath, content: bytes | None = None) -> Content:
@@ -211,5 +212,5 @@ def read(path: FilePath, content: bytes | None = None) -> Content:
         variables = {}
         for name, variable in file.variables.items():
             attributes = {key: variable.getncattr(key) for key in variable.ncattrs() if key not in _STORAGE}
-            variables[name] = Variable(variable.dimensions, read_only(unpacked(variable)), attributes)
+            variables[name] = Variable(variable.dimensions, unpacked(variable), attributes)
         return Content(variables, {name: file.getncattr(name) for name in file.ncattrs()}, path)

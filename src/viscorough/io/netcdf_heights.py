@@ -6,7 +6,6 @@ import netCDF4
 import numpy as np
 
 from viscorough.basics import units
-from viscorough.basics.argument_names import argument
 from viscorough.basics.types import Array, FilePath
 from viscorough.io import netcdf
 from viscorough.io.atomic import Refused
@@ -93,7 +92,7 @@ def _leading(variable: netCDF4.Variable, dimensions: int) -> str:
 
 def _are_whole(heights: Array) -> bool:
     """Return True if all heights are whole numbers, not all of them equal, as counts of a detector are."""
-    values = np.ma.compressed(np.ma.masked_invalid(heights)) if heights.dtype.kind == "f" else np.zeros(0)
+    values = heights[np.isfinite(heights)] if heights.dtype.kind == "f" else np.zeros(0)
     return bool(values.size and np.ptp(values) > 0 and (values == np.rint(values)).all())
 
 
@@ -121,14 +120,14 @@ def _is_down(variable: netCDF4.Variable, flip: bool) -> bool:
     stated = [variable.name, *(str(getattr(variable, key, "")) for key in ("standard_name", "long_name"))]
     if "positive" not in variable.ncattrs():
         if any("depth" in text.lower() for text in stated) and not flip:
-            text = f"variable {variable.name} is a depth, of which larger may be lower; {argument('flip')} states this"
+            text = f"variable {variable.name} is a depth, of which larger may be lower; argument flip states this"
             raise Refused(f"{text}, and the attribute positive = up of the variable the opposite")
         return False
     positive = str(variable.getncattr("positive")).strip().lower()
     if positive not in ("up", "down"):
         raise Refused(f"attribute positive of {variable.name} is {positive!r}; up or down is needed")
     if flip:
-        raise Refused(f"{argument('flip')}: the file states positive = {positive}, which is obeyed; leave it out")
+        raise Refused(f"argument flip: the file states positive = {positive}, which is obeyed; leave it out")
     return positive == "down"
 
 
@@ -171,7 +170,7 @@ def _spacing(rows: tuple[str, Array, str] | None, columns: tuple[str, Array, str
 def _are_indices(positions: Array, unit: str) -> bool:
     """Return True if positions only number the points, from 0 or 1, and therefore state no distance."""
     counts = (np.arange(first, first + positions.size) for first in (0, 1))
-    counts_up = not np.ma.is_masked(positions) and any(np.array_equal(positions, count) for count in counts)
+    counts_up = any(np.array_equal(positions, count) for count in counts)
     return units.counts_points(unit) or (unit in (NOT_STATED, units.UNKNOWN) and counts_up)
 
 
@@ -182,7 +181,7 @@ def uniform_spacing(name: str, positions: Array) -> float:
 
     Raises ValueError for fewer than two positions, and for distances that differ by more than rounding can cause.
     """
-    positions = np.ma.filled(np.ma.asarray(positions).astype(float), np.nan)
+    positions = np.asarray(positions, float)
     if positions.size < 2:
         raise Refused(f"coordinate {name} has {positions.size} position; at least two are needed for a spacing")
     if not np.isfinite(positions).all():
@@ -199,7 +198,5 @@ def uniform_spacing(name: str, positions: Array) -> float:
         text = f"coordinate {name} is not uniform: its steps lie between {steps.min():g} and {steps.max():g}"
         raise Refused(f"{text}; equal spacing is needed")
     if rounding > _UNIFORMITY * abs(mean) * steps.size and np.ptp(steps) > _UNIFORMITY * abs(mean):
-        raise Refused(
-            f"coordinate {name} is too coarse for its steps of {abs(mean):g}; {argument('spacing')} is needed"
-        )
+        raise Refused(f"coordinate {name} is too coarse for its steps of {abs(mean):g}; argument spacing is needed")
     return abs(mean)

@@ -28,9 +28,9 @@ def to_dataset(result: Result) -> xr.Dataset:
     Examples
     --------
     >>> import viscorough
-    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, length_unit="um", seed=1)
+    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, length_unit="m", seed=1)
     >>> dataset = viscorough.to_dataset(viscorough.contact_at(disc, depth=0.005))
     >>> dict(dataset.sizes), dataset.pressure.dims, dataset.x.attrs["units"]
-    ({'y': 17, 'x': 17, 'patch': 1}, ('y', 'x'), 'um')
+    ({'y': 17, 'x': 17, 'patch': 1}, ('y', 'x'), 'm')
     """
     return content_to_dataset(to_content(result))

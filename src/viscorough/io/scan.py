@@ -1,16 +1,15 @@
-"""Convert the heights, spacings and units that a file states to an indenter."""
+"""Convert the heights, spacings and units that a file states to an indenter, with lengths in metres."""
 
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from viscorough.basics import units
-from viscorough.basics.argument_names import argument
-from viscorough.basics.arrays import positive
+from viscorough.basics.arrays import positive, real_number
 from viscorough.basics.types import Array
 from viscorough.surfaces.indenter import Indenter
 
-Distance = float | str | units.Quantity
+Distance = float | str  # a number in the unit of the heights, or a text with a unit, such as "0.2 um"
 # A spacing that the user gives agrees with the spacing in the file if the relative difference is at most this.
 _AGREEMENT = 1e-3
 NOT_STATED = ""  # unit of a file that states none
@@ -20,7 +19,7 @@ class Scan(NamedTuple):
     """Heights of a map or line, with their spacing and units as a file states them. Larger heights are higher.
 
     heights : map of shape (rows, columns), where x runs along a row and y from row to row, or line of shape (points,).
-        Points that were not measured are nan or masked
+        Points that were not measured are nan
     unit : unit of the heights, as the file spells it; "1" if the file states that the unit of length is not known, and
         NOT_STATED if it states nothing
     spacing : (dx, dy), the distance between neighbouring columns and the distance between neighbouring rows; None if
@@ -40,11 +39,26 @@ class Scan(NamedTuple):
     counts: bool = False
 
 
-def to_indenter(scan: Scan, spacing: Any = None, unit: str | None = None, scale: Any = None) -> Indenter:
-    """Convert a Scan to an Indenter, with spacings in the unit of the heights.
+def in_metres(indenter: Indenter, unit: str) -> Indenter:
+    """Return an indenter whose numbers are in `unit` with its lengths in metres; unchanged if the unit is "1"."""
+    if unit == units.UNKNOWN:
+        return indenter
+    factor = units.metres(unit)
+    positions = (indenter.column_positions, indenter.row_positions)
+    columns, rows = (None if each is None else each * factor for each in positions)
+    heights = indenter.heights if factor == 1 else indenter.heights.astype(float) * factor
+    spacings = indenter.spacing * factor, indenter.row_spacing * factor
+    return Indenter(heights, *spacings, "m", columns, rows, from_file=indenter.from_file)
 
-    spacing : one distance, or (dx, dy). Each is a plain number in the unit of the heights, or has a unit, such as
-        "0.2 um" (see units.with_unit). Needed if the file states no spacing; otherwise it must agree with the file
+
+def to_indenter(scan: Scan, spacing: Any = None, unit: str | None = None, scale: Any = None) -> tuple[Indenter, str]:
+    """Convert a Scan to an Indenter with numbers in the unit of the heights, and return it with this unit.
+
+    `in_metres` then converts the indenter, after its heights are prepared: marks of missing values are in the unit of
+    the file.
+
+    spacing : one distance, or (dx, dy). Each is a plain number in the unit of the heights, or a text or Quantity with a
+        unit, such as "0.2 um". Needed if the file states no spacing; otherwise it must agree with the file
     unit : unit of the heights. Needed if the file states no unit; otherwise it must agree with the file
     scale : factor of the heights, see `read_heights`
 
@@ -52,14 +66,14 @@ def to_indenter(scan: Scan, spacing: Any = None, unit: str | None = None, scale:
     a unit of length, and for heights that Indenter refuses.
     """
     if scan.counts and scale is None:
-        text = f"its numbers are whole, without a scale, as counts of a detector are; {argument('scale')}, such as"
+        text = "its numbers are whole, without a scale, as counts of a detector are; argument scale, such as"
         raise ValueError(f"{text} '5 nm', states the height of 1 count, and 1 that the numbers are heights")
     if scale is not None:
         scan = _scaled(scan, scale)
     length_unit = _unit_of_heights(scan, unit)
     in_file = _stated_spacing(scan, length_unit, is_given=spacing is not None)
     if spacing is None and in_file is None:
-        raise ValueError(f"the distance between neighbouring points is not stated; {argument('spacing')} is needed")
+        raise ValueError("the distance between neighbouring points is not stated; argument spacing is needed")
     own = in_file if spacing is None else _given_spacing(spacing, length_unit, is_line=scan.heights.ndim == 1)
     assert own is not None
     if in_file is not None:
@@ -70,20 +84,20 @@ def to_indenter(scan: Scan, spacing: Any = None, unit: str | None = None, scale:
         and abs(own[1] / own[0] * scan.spacing[0] / scan.spacing[1] - 1) > (_AGREEMENT)
     ):
         text = f"in the file, rows are {scan.spacing[1] / scan.spacing[0]:g} times as far apart as columns"
-        raise ValueError(f"{argument('spacing')}: {text}; distances of this ratio are needed")
+        raise ValueError(f"argument spacing: {text}; distances of this ratio are needed")
     dx, dy = own if in_file is None else in_file
     places = _places(scan, length_unit) if scan.heights.ndim == 2 and in_file is not None else (None, None)
-    return Indenter(scan.heights, dx, dy, length_unit, *places, from_file=True)
+    return Indenter(scan.heights, dx, dy, units.UNKNOWN, *places, from_file=True), length_unit
 
 
 def _scaled(scan: Scan, scale: Any) -> Scan:
     """Multiply the heights of a Scan by a scale. If the scale has a unit, the heights get this unit."""
-    quantity = units.with_unit(scale)
-    number, unit = (quantity.number, quantity.unit) if isinstance(quantity, units.Quantity) else (quantity, "")
+    quantity = _quantity("argument scale", scale)
+    number, unit = quantity.number, quantity.unit
     if unit and units.is_length(scan.unit):
         text = f"heights are in {scan.unit} in the file; a plain number is needed"
-        raise ValueError(f"{argument('scale')} {scale}: {text}")
-    number = positive(argument("scale"), number)
+        raise ValueError(f"argument scale {scale}: {text}")
+    number = positive("argument scale", number)
     if scan.heights.dtype.kind not in "iuf":
         return scan  # Indenter refuses heights that are no numbers
     return scan._replace(heights=scan.heights * number, unit=unit or scan.unit)
@@ -95,7 +109,7 @@ def _check_agreement(given: tuple[float, float], in_file: tuple[float, float], l
         if abs(distance - stated) > _AGREEMENT * abs(stated):
             unit = "" if length_unit == units.UNKNOWN else f" {length_unit}"
             text = f"{distance:g}{unit} contradicts the file, in which {name} are {stated:g}{unit} apart"
-            raise ValueError(f"{argument('spacing')} {text}; leave it out")
+            raise ValueError(f"argument spacing {text}; leave it out")
 
 
 def _places(scan: Scan, length_unit: str) -> tuple[Array | None, Array | None]:
@@ -115,15 +129,24 @@ def _places(scan: Scan, length_unit: str) -> tuple[Array | None, Array | None]:
 def _given_spacing(spacing: Any, length_unit: str, *, is_line: bool) -> tuple[float, float]:
     """Convert a spacing that the user gives to (dx, dy) in the unit of the heights."""
     pair = spacing if isinstance(spacing, tuple | list | np.ndarray) else (spacing, spacing)
-    name = argument("spacing")
+    name = "argument spacing"
     if len(pair) != 2 or (is_line and pair is spacing):
         needed = (
             "one distance is needed for a line" if is_line else "one distance, or two of columns and rows, is needed"
         )
         raise ValueError(f"{name} {spacing!r}: {needed}")
-    pair = [units.with_unit(distance) for distance in pair]
-    dx, dy = (positive(name, number) for number in units.numbers(pair, length_unit, length_unit, name))
-    return dx, dy
+    dx, dy = (_quantity(name, distance) for distance in pair)
+    for distance in (dx, dy):
+        if distance.unit and length_unit == units.UNKNOWN:
+            raise ValueError(f"{name} {distance}: needs a plain number, since the unit of heights is not known")
+    return positive(name, dx.to(length_unit)), positive(name, dy.to(length_unit))
+
+
+def _quantity(name: str, value: Any) -> units.Quantity:
+    """Convert a number, or a text with or without a unit, to a Quantity."""
+    if isinstance(value, str):
+        value = units.quantity(value)
+    return value if isinstance(value, units.Quantity) else units.Quantity(real_number(name, value))
 
 
 def _is_known(unit: str) -> bool:
@@ -139,12 +162,12 @@ def _unit_of_heights(scan: Scan, given: str | None) -> str:
     try:
         stated = units.length_unit(scan.unit) if _is_known(scan.unit) else None
     except ValueError as error:
-        text = f"{argument('scale')}, such as '5 nm', states the height of 1 {scan.unit.strip()[:60]}"
+        text = f"argument scale, such as '5 nm', states the height of 1 {scan.unit.strip()[:60]}"
         raise ValueError(f"heights: {error}; {text}") from error
     given = None if given is None or given == units.UNKNOWN else units.length_unit(given)
     if stated and given and units.metres(stated) != units.metres(given):
         text = f"{given} contradicts the file, in which heights are in {stated}; leave it out"
-        raise ValueError(f"{argument('unit')} {text}")
+        raise ValueError(f"argument unit {text}")
     return stated or given or units.UNKNOWN
 
 
@@ -162,10 +185,10 @@ def _stated_spacing(scan: Scan, length_unit: str, *, is_given: bool) -> tuple[fl
         if is_given:
             return None
         text = f"heights are in {length_unit}, coordinates in no stated unit"
-        raise ValueError(f"{text}; {argument('spacing')} is needed")
+        raise ValueError(f"{text}; argument spacing is needed")
     unit = units.length_unit(scan.spacing_unit)
     if length_unit == units.UNKNOWN:
-        raise ValueError(f"coordinates are in {unit}, heights in no stated unit; {argument('unit')} is needed")
+        raise ValueError(f"coordinates are in {unit}, heights in no stated unit; argument unit is needed")
     factor = units.factor(unit, length_unit)
     dx, dy = (float(f"{factor * distance:.14g}") for distance in scan.spacing)
     return dx, dy

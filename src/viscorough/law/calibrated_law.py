@@ -41,7 +41,6 @@ from importlib import resources
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscorough.basics.argument_names import spelled
 from viscorough.basics.arrays import real_number, real_numbers
 from viscorough.basics.elasticity import one_element_stiffness
 from viscorough.basics.types import Array, Numbers
@@ -255,10 +254,9 @@ def penetration_law(hurst: float) -> PenetrationLaw:
     """
     table, beyond = calibration(), interface_calibration()
     low, high = _calibrated_hurst()
-    name = spelled("--hurst", "hurst of the penetration law")
-    hurst = real_number(name, hurst)
+    hurst = real_number("argument hurst", hurst)
     if not low <= hurst <= high:
-        raise ValueError(f"{name}: must be from {low:g} to {high:g}, not {hurst!r}")
+        raise ValueError(f"argument hurst: must be from {low:g} to {high:g} for the penetration law, not {hurst!r}")
 
     def linear(name: str, columns: dict[str, Array] = table) -> float:
         return float(np.interp(hurst, columns["hurst"], columns[name]))

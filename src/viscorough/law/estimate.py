@@ -6,13 +6,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from viscorough.basics.arrays import ReadOnlyArrays
 from viscorough.basics.summaries import span
 from viscorough.law.calibrated_law import PenetrationLaw
 
 
-@dataclass(frozen=True)
-class Estimate(ReadOnlyArrays):
+@dataclass(frozen=True, eq=False)
+class Estimate:
     """Depth and velocity by the penetration law, as functions of time; arrays of shape (times,).
 
     Depths and velocities are nan at times when X lies outside the range of the law.

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscorough.basics import units
-from viscorough.basics.arrays import ReadOnlyArrays, increasing, integral, read_only, real_numbers
+from viscorough.basics.arrays import increasing, integral, real_numbers
 from viscorough.basics.summaries import span
 from viscorough.basics.types import Array, Integers
 
@@ -23,13 +22,12 @@ _LARGEST_NOISE = 0.1
 _SAME_SLOPE, _CLOSE = 1e-6, 10.0
 
 
-@dataclass(frozen=True)
-class Load(ReadOnlyArrays):
-    """Force or depth as a function of time, linear between samples; read-only arrays of shape (samples,).
+@dataclass(frozen=True, eq=False)
+class Load:
+    """Force or depth as a function of time, linear between samples; arrays of shape (samples,).
 
     Before the first sample, force and depth are zero, so that a first value above zero is a step (`kinetics` states an
-    exception for noisy depths). Numbers have no unit attached. Times are in s, forces in N, and depths in the
-    indenter's unit of length. If this unit is not known, all numbers are in consistent units.
+    exception for noisy depths). Times are in s, forces in N and depths in m, or all numbers are in consistent units.
 
     Parameters
     ----------
@@ -83,8 +81,8 @@ class Load(ReadOnlyArrays):
             where = int(np.argmin(allowed))
             text = "finite" if self.by_depth else "finite, 0 or more (without adhesion a pull opens the contact)"
             raise ValueError(f"Load: {name}: sample {where} is {values[where]}; allowed: {text}")
-        object.__setattr__(self, "time", read_only(time))
-        object.__setattr__(self, name, read_only(values))
+        object.__setattr__(self, "time", time)
+        object.__setattr__(self, name, values)
 
     @property
     def by_depth(self) -> bool:
@@ -166,44 +164,9 @@ class Load(ReadOnlyArrays):
         name = "depth" if self.by_depth else "force"
         return Load(np.append(2 * time[0] - time[1], time), **{name: np.append(0.0, values)})
 
-    def in_units_of(self, length_unit: str) -> Load:
-        """Return the load with forces converted from N to Pa × length_unit², to be consistent with moduli in Pa.
-
-        length_unit : unit of length; forces are divided by its square in m²
-
-        The load is returned unchanged if it prescribes the depth, or if the unit of length is not known.
-        """
-        area = units.square_metres(length_unit)
-        return self if self.by_depth or area == 1 else Load(self.time, force=self.values / area)
-
 
 def _distance(times: Array, samples: Array) -> Array:
     """Return the distance of each time from the nearest sample time; both arrays increase."""
     after = np.searchsorted(samples, times)
     before = np.abs(times - samples[np.maximum(after - 1, 0)])
     return np.minimum(before, np.abs(samples[np.minimum(after, samples.size - 1)] - times))
-
-
-def force_load(force: Any, times: Array, length_unit: str) -> Load:
-    """Return a force as a Load in consistent units.
-
-    force : a Load that prescribes the force; or samples at `times`; or a constant that acts from time 0 to the last of
-        `times`. Samples and the constant may have a unit
-    length_unit : unit of length of the indenter
-
-    Raises ValueError for a Load that prescribes the depth, for a constant that is not finite and above 0, and for
-    negative times with a constant.
-    """
-    if isinstance(force, Load):
-        if force.by_depth:
-            raise ValueError("force: a Load of a depth; allowed: a Load of a force, samples or a constant")
-        return force.in_units_of(length_unit)
-    values = units.numbers(force, "N", length_unit, "force")
-    if values.ndim:
-        return Load(times, force=values).in_units_of(length_unit)
-    if not 0 < values < np.inf:
-        raise ValueError(f"constant force: {values}; allowed: a finite number above 0")
-    if times[0] < 0:
-        raise ValueError(f"times: start at {times[0]:g}; allowed: from 0 on, where a constant force begins")
-    samples = np.unique([0.0, times[-1]])
-    return Load(samples, force=np.full(samples.size, float(values))).in_units_of(length_unit)

@@ -5,10 +5,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscorough.basics.arrays import ReadOnlyArrays, ReadOnlyTuple, real_number
+from viscorough.basics.arrays import real_number
 from viscorough.basics.summaries import InNotebooks, span, unit_power, with_unit
 from viscorough.basics.types import Mask
-from viscorough.basics.units import in_metres, result_units, square_metres
 
 # The area of the elements in contact is too large, because elements at the edge of the contact are counted as a whole.
 # For each pair of neighbouring elements of which only one is in contact, the area is too large by this share of an
@@ -16,12 +15,7 @@ from viscorough.basics.units import in_metres, result_units, square_metres
 EXCESS_PER_CHANGE = (np.pi - 1 + np.log(2)) / 24
 
 
-class _Patches(NamedTuple):
-    labels: np.ndarray
-    areas: np.ndarray
-
-
-class Patches(ReadOnlyTuple, _Patches):
+class Patches(NamedTuple):
     """Contact patches of a map: connected regions of elements in contact.
 
     Attributes
@@ -33,7 +27,8 @@ class Patches(ReadOnlyTuple, _Patches):
         Areas of the patches, the largest first, shape (patches,) [length²].
     """
 
-    __slots__ = ()
+    labels: np.ndarray
+    areas: np.ndarray
 
     def __repr__(self) -> str:
         """Return a text with the number of the patches and the range of their areas, without the map."""
@@ -41,11 +36,9 @@ class Patches(ReadOnlyTuple, _Patches):
         return f"Patches: {len(self.areas)} of the contact{areas}"
 
 
-@dataclass(frozen=True)
-class Contact(InNotebooks, ReadOnlyArrays):
+@dataclass(frozen=True, eq=False)
+class Contact(InNotebooks):
     """Contact of a rigid indenter with an elastic half-space at one depth, the result of `contact_at`.
-
-    Arrays are copied and read-only.
 
     Attributes
     ----------
@@ -70,9 +63,7 @@ class Contact(InNotebooks, ReadOnlyArrays):
     spacing, row_spacing : float
         Distances dx and dy between neighbouring columns and rows [length].
     length_unit : str
-        Unit of all lengths; "1" if the unit is not known.
-    shear_modulus : float or None
-        Shear modulus G [Pa], or in consistent units if the unit of length is not known; None if no modulus was given.
+        "m" if numbers are in SI units, "1" if they are in consistent units that are not known.
     column_positions, row_positions : array or None
         Coordinates of the columns and rows, as the indenter has them [length].
 
@@ -96,24 +87,20 @@ class Contact(InNotebooks, ReadOnlyArrays):
     spacing: float
     row_spacing: float
     length_unit: str = "1"
-    shear_modulus: float | None = None
     column_positions: np.ndarray | None = None
     row_positions: np.ndarray | None = None
 
     def __post_init__(self) -> None:
-        super().__post_init__()
         for name in ("depth", "force", "stiffness", "residual", "tolerance", "spacing", "row_spacing"):
             real_number(f"Contact: {name}", getattr(self, name))
-        if self.shear_modulus is not None:
-            real_number("Contact: shear_modulus", self.shear_modulus)
         if not self.pressure.shape == self.gap.shape == self.contact.shape:
             shapes = f"{self.pressure.shape}, {self.gap.shape} and {self.contact.shape}"
             raise ValueError(f"Contact: pressure, gap and contact have the shapes {shapes}; one shape is needed")
 
-    def __str__(self) -> str:
+    def __repr__(self) -> str:
         """Return a summary: number of elements in contact, depth, force, stiffness, contact area and pressure."""
         unit, area = self.length_unit, unit_power(self.length_unit, 2)
-        text = (
+        return (
             f"Contact of {self.contact_count} of {self.elements} elements\n"
             f"depth u {with_unit(self.depth, unit)}, force F/G {with_unit(self.force, area)}, "
             f"stiffness k/G {with_unit(self.stiffness, unit)}\n"
@@ -121,32 +108,6 @@ class Contact(InNotebooks, ReadOnlyArrays):
             f"corrected {with_unit(self.corrected_contact_area, area)}, "
             f"mean p/G {with_unit(self.mean_pressure)}, largest p/G {with_unit(self.largest_pressure)}"
         )
-        if self.shear_modulus is not None:
-            read = result_units(unit, self.shear_modulus)
-            text += f"\nforce F {read['force'].text(self.force)}, mean p {read['pressure'].text(self.mean_pressure)}, "
-            text += f"largest p {read['pressure'].text(self.largest_pressure)}, "
-            text += f"stiffness k {read['stiffness'].text(self.stiffness)}"
-        return text
-
-    @property
-    def normal_force(self) -> float | None:
-        """Return the force F [N], or None if no modulus was given.
-
-        If the unit of length is not known, F is in the units of the modulus times length².
-        """
-        if self.shear_modulus is None:
-            return None
-        return self.force * self.shear_modulus * square_metres(self.length_unit)
-
-    @property
-    def normal_stiffness(self) -> float | None:
-        """Return the tangent stiffness k = dF/du [N/m], or None if no modulus was given.
-
-        If the unit of length is not known, k is in the units of the modulus times length.
-        """
-        if self.shear_modulus is None:
-            return None
-        return self.stiffness * self.shear_modulus * in_metres(self.length_unit)
 
     @property
     def elements(self) -> int:

@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscorough.basics import units
-from viscorough.basics.arrays import ReadOnlyArrays, increasing, read_only
+from viscorough.basics.arrays import increasing, positive, real_numbers
 from viscorough.basics.summaries import InNotebooks, span, unit_power
 from viscorough.basics.types import Array, Integers, Pair, Scalar
 
@@ -28,11 +27,11 @@ _HALVINGS = 90
 _GRID_QUANTITIES = ("grid_error", "force_grid_error", "area_change")
 
 
-@dataclass(frozen=True)
-class LoadingCurve(InNotebooks, ReadOnlyArrays):
+@dataclass(frozen=True, eq=False)
+class LoadingCurve(InNotebooks):
     """Depth, force and tangent stiffness of a rigid indenter pressed into an elastic half-space, at successive levels.
 
-    A level is a computed point of the curve: one contact. Arrays are copied and read-only. If the shear modulus G is
+    A level is a computed point of the curve: one contact. If the shear modulus G is
     replaced by a viscosity η, and the force F by ∫F dt, the same curve describes an indenter in a linearly viscous
     half-space (Radok; paper, Sec. III).
 
@@ -57,7 +56,7 @@ class LoadingCurve(InNotebooks, ReadOnlyArrays):
     residual : array
         Largest remaining gap in contact or overlap outside the contact, divided by the depth, shape (levels,).
     length_unit : str
-        Unit of the lengths, as UDUNITS spells it; "1" if the unit is not known.
+        "m" if numbers are in SI units, "1" if they are in consistent units that are not known.
     grid_error : array
         Estimated relative error of the viscous velocity due to the spacing of the map, at the force of each level,
         shape (levels,). This attribute and the next four attributes are None unless an estimate of the grid error
@@ -106,12 +105,14 @@ class LoadingCurve(InNotebooks, ReadOnlyArrays):
     mean_area_change: float | None = None
 
     def __post_init__(self) -> None:
-        super().__post_init__()
+        if self.length_unit not in ("m", "1"):
+            raise ValueError(f"loading curve: length_unit {self.length_unit!r}; 'm' or '1' is needed")
         for name in ("depth", "force"):
             values = increasing(f"loading curve: {name}", getattr(self, name), above_zero=True)
-            object.__setattr__(self, name, read_only(values))
+            object.__setattr__(self, name, values)
         grid_quantities = [name for name in _GRID_QUANTITIES if getattr(self, name) is not None]
         for name in ("force", "stiffness", "contact_count", "residual", *grid_quantities):
+            object.__setattr__(self, name, np.asarray(getattr(self, name)))
             if (shape := getattr(self, name).shape) != self.depth.shape:
                 text = f"loading curve: {name} has the shape {shape} and depth {self.depth.shape}"
                 raise ValueError(f"{text}; one value for each level is needed")
@@ -127,7 +128,7 @@ class LoadingCurve(InNotebooks, ReadOnlyArrays):
             text = f"{self.elements} elements and a tolerance of {self.tolerance:g}"
             raise ValueError(f"loading curve: {text}; at least 1 and a finite number from 0 on are needed")
 
-    def __str__(self) -> str:
+    def __repr__(self) -> str:
         """Return a summary: method, number of levels, first and last value of each quantity, and grid error."""
         unit, levels = self.length_unit, self.depth.size
         lines = [
@@ -167,12 +168,9 @@ class LoadingCurve(InNotebooks, ReadOnlyArrays):
 
         See Eq. 3 of the paper.
 
-        rms, diameter : rms height h and diameter L [length], as numbers or texts with a unit
+        rms, diameter : rms height h and diameter L [length]
         """
-        unit = self.length_unit
-        rms, diameter = units.number(rms, unit, unit, "rms"), units.number(diameter, unit, unit, "diameter")
-        if not (rms > 0 and diameter > 0):
-            raise ValueError(f"normalised: rms {rms:g}, diameter {diameter:g}; numbers above 0 are needed")
+        rms, diameter = positive("rms", rms), positive("diameter", diameter)
         return self.force / (4 * rms * diameter), self.stiffness / (4 * diameter)
 
     def at_force(self, force: "ArrayLike") -> tuple[Array, Array]:
@@ -197,8 +195,7 @@ class LoadingCurve(InNotebooks, ReadOnlyArrays):
         depth, stiffness : array
             Depths u and stiffnesses k/G, both in the shape of `force` [length].
         """
-        unit = self.length_unit
-        force = units.numbers(force, unit_power(unit, 2), unit, "force")
+        force = real_numbers("force", force)
         # A force that differs only by rounding from the first or last force of the curve is replaced by this force.
         for end in (self.force[0], self.force[-1]):
             force = np.where(np.abs(force - end) <= _ROUNDING * end, end, force)
@@ -239,7 +236,7 @@ class LoadingCurve(InNotebooks, ReadOnlyArrays):
         >>> round(float(curve.at_force(force)[0]), 9)
         0.01
         """
-        depth = units.numbers(depth, self.length_unit, self.length_unit, "depth")
+        depth = real_numbers("depth", depth)
         # A depth that differs only by rounding from the first or last depth of the curve is replaced by this depth.
         for end in (self.depth[0], self.depth[-1]):
             depth = np.where(np.abs(depth - end) <= _ROUNDING * end, end, depth)

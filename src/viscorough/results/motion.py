@@ -4,24 +4,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viscorough.basics import units
-from viscorough.basics.arrays import ReadOnlyArrays
 from viscorough.basics.summaries import InNotebooks, si_unit, span, with_unit
 
 
-@dataclass(frozen=True)
-class Motion(InNotebooks, ReadOnlyArrays):
-    """Motion of an indenter under a load. All arrays are read-only and have the shape (times,).
+@dataclass(frozen=True, eq=False)
+class Motion(InNotebooks):
+    """Motion of an indenter under a load. All arrays have the shape (times,).
 
     Attributes
     ----------
     time : array
-        Times t, in s if the unit of length is known, otherwise in the unit of viscosity × length² / force.
+        Times t [s].
     depth : array
         Depth u [length]. At zero force the depth is not unique: the indenter is assumed to rest on the recovering
         surface.
     force : array
-        Force F, in N if the unit of length is known.
+        Force F [N].
     velocity : array
         Velocity v = du/dt [length/time]. If the velocity jumps at a time, this is the velocity just after the jump,
         except at the last time, and at the sample just before a step of the load. There it is the velocity just before
@@ -30,7 +28,7 @@ class Motion(InNotebooks, ReadOnlyArrays):
     contact_fraction : array
         Share of the elements of the indenter that are in contact.
     length_unit : str
-        Unit of the lengths, as UDUNITS spells it; "1" if the unit is not known.
+        "m" if numbers are in SI units, "1" if they are in consistent units that are not known.
     receding_from : float
         Time when the contact begins to recede for the first time; nan if the contact only grows.
 
@@ -50,10 +48,10 @@ class Motion(InNotebooks, ReadOnlyArrays):
     force: np.ndarray
     velocity: np.ndarray
     contact_fraction: np.ndarray
-    length_unit: str = units.UNKNOWN
+    length_unit: str = "1"
     receding_from: float = np.nan
 
-    def __str__(self) -> str:
+    def __repr__(self) -> str:
         """Return a summary: first and last value of each quantity, and the time from which the contact recedes."""
         unit = self.length_unit
         text = (

@@ -2,48 +2,36 @@
 
 import math
 import sys
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from viscorough.basics import units
-from viscorough.basics.arrays import (
-    ReadOnlyArrays,
-    is_whole,
-    named,
-    positive,
-    read_only,
-    real_numbers,
-    shown,
-    unit_attribute,
-)
+from viscorough.basics.arrays import positive, real_numbers, shown
 from viscorough.basics.summaries import with_unit
 from viscorough.basics.types import Array
 
 # Largest ratio of the longer to the shorter side of an element.
 LARGEST_ASPECT = 5
-# Up to this number, double precision represents all whole numbers exactly.
-_LARGEST_WHOLE = 2**53
 
 
-@dataclass(frozen=True)
-class Indenter(ReadOnlyArrays):
+@dataclass(frozen=True, eq=False)
+class Indenter:
     """Rigid indenter: heights at the points of a rectangular grid, or of a line with equal spacing.
 
     Parameters
     ----------
     heights : array
         Map of shape (rows, columns), nan outside the indenter, or line of shape (points,) [length]. The point with the
-        largest height touches first. The array is copied, and the copy is read-only. Masked entries become nan. Single
-        precision is kept; all other numbers become double precision.
+        largest height touches first. Single precision is kept; all other numbers become double precision. An array of
+        these types is not copied, so that it must not be changed.
     spacing : float
         Distance dx between neighbouring columns of a map, or between neighbouring points of a line [length]. It may
         also be a pair (dx, dy).
     row_spacing : float
         Distance dy between neighbouring rows of a map, from a fifth of dx to five times dx; by default dx [length].
     length_unit : str
-        Unit of heights and spacings, as UDUNITS spells it ("um"); "1" if the unit is not known.
+        "m" if numbers are in SI units, "1" if they are in consistent units that are not known, the default.
     column_positions, row_positions : array, optional
         Coordinates x of the columns and y of the rows of a map, as the file of the map states them, rising or falling
         [length]. Output files have the same coordinates. By default they rise, and are 0 at the centre of the map.
@@ -54,10 +42,10 @@ class Indenter(ReadOnlyArrays):
     Raises
     ------
     ValueError
-        For heights that are not real numbers in one or two dimensions, contain whole numbers beyond 2**53 or infinite
-        numbers, or are all nan. For a line with nan. For heights whose difference is too large for double precision.
+        For heights that are not real numbers in one or two dimensions, contain infinite numbers, or are all nan. For a
+        line with nan. For heights whose difference is too large for double precision.
         For positions that are not one for each column or row. For spacings that are not positive or differ by more than
-        a factor of five, and for a line whose row_spacing differs from its spacing. For a unit that is not a text.
+        a factor of five, and for a line whose row_spacing differs from its spacing. For another unit than "m" or "1".
 
     Examples
     --------
@@ -74,34 +62,21 @@ class Indenter(ReadOnlyArrays):
     length_unit: str = "1"
     column_positions: np.ndarray | None = None
     row_positions: np.ndarray | None = None
-    from_file: bool = field(default=False, compare=False)
+    from_file: bool = False
 
     def __post_init__(self) -> None:
-        unit = self.length_unit
-        if not isinstance(unit, str) or not unit.strip():
-            raise ValueError(f"indenter length_unit: must be a text such as 'um' or '1', not {shown(unit)}")
-        if unit_attribute(self.heights):
-            object.__setattr__(self, "heights", units.numbers(self.heights, unit, unit, "indenter heights"))
-        with named("indenter heights"):
-            heights = read_only(self.heights)
-        if heights.dtype.kind == "O" or not isinstance(self.heights, np.ndarray):
-            numbers = real_numbers("indenter heights", self.heights)
-            if heights.dtype.kind == "O":
-                if any(is_whole(height) and abs(height) > _LARGEST_WHOLE for height in heights.flat):
-                    raise ValueError("indenter heights: whole numbers must not exceed 2**53, some do")
-                heights = numbers
-        if heights.dtype.kind not in "fiu":
-            raise ValueError(f"indenter heights: must be real numbers, not {heights.dtype}")
+        if self.length_unit not in ("m", "1"):
+            needed = "allowed are 'm', with all numbers in SI units, and '1', with consistent units"
+            raise ValueError(f"indenter length_unit: {shown(self.length_unit)}; {needed}")
+        heights = self.heights
+        if not isinstance(heights, np.ndarray) or np.ma.isMaskedArray(heights) or heights.dtype.kind not in "iuf":
+            heights = real_numbers("indenter heights", heights)
         if heights.ndim not in (1, 2):
             raise ValueError(f"indenter heights: must have one or two dimensions, not {heights.ndim}")
-        whole = np.ma.asanyarray(self.heights)  # min and max of a masked array ignore masked entries
-        if whole.dtype.kind in "iu" and whole.count() and max(-int(whole.min()), int(whole.max())) > _LARGEST_WHOLE:
-            raise ValueError("indenter heights: whole numbers must not exceed 2**53, some do")
         # Store heights in single or double precision, row by row, and in the byte order of this machine.
         precision = np.float32 if heights.dtype == np.float32 else np.float64
         with np.errstate(over="ignore"):  # numbers that are too large become infinite, which is checked below
             heights = np.ascontiguousarray(heights, dtype=precision)
-        heights.flags.writeable = False
         if heights.size == 0 or np.isnan(highest := np.fmax.reduce(heights, axis=None)):
             raise ValueError("indenter heights: must have at least one element that is not nan")
         if not math.isfinite(float(highest) - float(np.fmin.reduce(heights, axis=None))):
@@ -111,7 +86,7 @@ class Indenter(ReadOnlyArrays):
         if heights.ndim == 1 and np.isnan(heights.min()):
             raise ValueError("indenter heights: must not be nan on a line")
         object.__setattr__(self, "heights", heights)
-        spacing, row_spacing = _spacings(self.spacing, self.row_spacing, unit)
+        spacing, row_spacing = _spacings(self.spacing, self.row_spacing)
         if heights.ndim == 1 and row_spacing != spacing:
             raise ValueError("indenter row_spacing: a line has no rows, only one spacing is allowed")
         object.__setattr__(self, "spacing", spacing)
@@ -121,9 +96,9 @@ class Indenter(ReadOnlyArrays):
                 positions = real_numbers(f"indenter {name}", positions)
                 if positions.shape != (points,) or not np.isfinite(positions).all():
                     raise ValueError(f"indenter {name}: shape {positions.shape}; {points} finite numbers are needed")
-                object.__setattr__(self, name, read_only(positions))
+                object.__setattr__(self, name, positions)
 
-    def __str__(self) -> str:
+    def __repr__(self) -> str:
         """Return a summary: map or line, numbers of points and elements, spacings, and range of the heights."""
         points, unit = " x ".join(map(str, self.heights.shape)), self.length_unit
         difference = np.nanmax(self.heights) - np.nanmin(self.heights)
@@ -132,20 +107,6 @@ class Indenter(ReadOnlyArrays):
         if self.aspect != 1:
             text += f"row spacing {with_unit(self.row_spacing, unit)}\n"
         return f"{text}highest over lowest point {with_unit(difference, unit)}"
-
-    def to(self, unit: str) -> "Indenter":
-        """Return the indenter with lengths in another unit, such as "m".
-
-        Raises ValueError if the present unit of length is not known.
-        """
-        if self.length_unit == units.UNKNOWN:
-            raise ValueError(f"indenter: its unit of length is not known, so that it cannot be converted to {unit}")
-        unit = units.length_unit(unit)
-        factor = units.factor(self.length_unit, unit)
-        positions = (self.column_positions, self.row_positions)
-        columns, rows = (None if each is None else each * factor for each in positions)
-        spacings = self.spacing * factor, self.row_spacing * factor
-        return Indenter(self.heights * factor, *spacings, unit, columns, rows, from_file=self.from_file)
 
     @property
     def aspect(self) -> float:
@@ -184,15 +145,8 @@ class Indenter(ReadOnlyArrays):
         return np.subtract(np.fmax.reduce(self.heights, axis=None), self.heights, dtype=float)
 
 
-def _spacings(spacing: Any, row_spacing: Any, length_unit: str) -> tuple[float, float]:
-    """Check the spacings of an Indenter, and return (dx, dy) in the unit of length.
-
-    spacing, row_spacing, length_unit : arguments of Indenter
-    """
-    if unit_attribute(spacing):
-        spacing = units.numbers(spacing, length_unit, length_unit, "indenter spacing")
-    if unit_attribute(row_spacing):
-        row_spacing = units.numbers(row_spacing, length_unit, length_unit, "indenter row_spacing")
+def _spacings(spacing: Any, row_spacing: Any) -> tuple[float, float]:
+    """Check the spacings of an Indenter, and return (dx, dy)."""
     if row_spacing is None and np.shape(spacing) == (2,):
         spacing, row_spacing = spacing
     spacing = positive("indenter spacing", spacing)

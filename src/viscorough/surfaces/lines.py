@@ -17,7 +17,6 @@ from ducc0 import fft
 from numpy.typing import DTypeLike
 
 from viscorough.basics import memory
-from viscorough.basics.argument_names import argument
 from viscorough.basics.arrays import positive, whole_number
 from viscorough.basics.types import Array, Integers, Seed
 from viscorough.surfaces import line_waves, spectrum
@@ -62,13 +61,11 @@ class SelfAffineLines:
             raise ValueError(f"dtype: must be float32 or float64, not {self._dtype}")
         low, high = _ROOM * np.finfo(self._dtype).tiny, np.finfo(self._dtype).max / _ROOM
         if not low <= self._rms <= high:
-            raise ValueError(
-                f"{argument('rms')}: must be from {low:.2g} to {high:.2g} for {self._dtype}, not {self._rms:g}"
-            )
+            raise ValueError(f"argument rms: must be from {low:.2g} to {high:.2g} for {self._dtype}, not {self._rms:g}")
         copies = _COPIES if fft.good_size(points, True) == points else _MOST_COPIES
         memory.require(copies * self._dtype.itemsize * points, f"a line of {points} points")
         if points // 2 > line_waves.MOST_WAVES:
-            raise ValueError(f"{argument('points')}: must be at most {2 * line_waves.MOST_WAVES + 1}, not {points}")
+            raise ValueError(f"argument points: must be at most {2 * line_waves.MOST_WAVES + 1}, not {points}")
         self.spacing = length / points
         self._in_pairs = self._dtype == np.float32 and points % 2 == 0
         if self._in_pairs:

@@ -8,7 +8,6 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from viscorough.basics.argument_names import argument, spelled
 from viscorough.basics.arrays import real_numbers, shown, whole_number
 from viscorough.basics.types import Array, Mask
 from viscorough.surfaces.indenter import Indenter, check_indenter
@@ -98,16 +97,16 @@ def prepare(
         heights[np.isin(heights, marks.astype(heights.dtype))] = np.nan
     if crop is not None:
         if np.shape(crop) != (2, 2):
-            raise ValueError(f"{argument('crop')}: {shown(crop)}; ((first column, end), (first row, end)) is needed")
+            raise ValueError(f"argument crop: {shown(crop)}; ((first column, end), (first row, end)) is needed")
         crop = [[whole_number("crop", point, at_least=0) for point in pair] for pair in crop]
         for (first, end), size, name in zip(crop, heights.shape[::-1], ("columns", "rows"), strict=True):
             if not 0 <= first < end <= size:
-                raise ValueError(f"{argument('crop')} to {name} {first}:{end}; within 0:{size} is allowed")
+                raise ValueError(f"argument crop to {name} {first}:{end}; within 0:{size} is allowed")
         (left, right), (top, bottom) = crop
         heights = heights[top:bottom, left:right].copy()
         columns, rows = columns if columns is None else columns[left:right], rows if rows is None else rows[top:bottom]
     if np.isnan(heights).all():
-        raise ValueError(f"no height is left after {argument('nodata')} and {argument('crop')}; at least one is needed")
+        raise ValueError("no height is left after argument nodata and argument crop; at least one is needed")
     if flip:
         np.negative(heights, out=heights)
     if detrend != "none":
@@ -162,7 +161,7 @@ def _fitted(heights: Array, dx: float, dy: float, form: str) -> Array:
         curvature = float(values[3])
         if not abs(curvature) < _LARGEST_SLOPE:
             raise ValueError(
-                f"{argument('detrend', 'sphere')}: the sphere that fits is smaller than the map; crop to a cap of it"
+                "argument detrend='sphere': the sphere that fits is smaller than the map; crop to a cap of it"
             )
         if abs(curvature - last) <= 1e-12 * abs(curvature):
             break
@@ -198,7 +197,7 @@ def _tilt(indenter: Indenter) -> Iterator[str]:
             f"{rise / rms:.3g} times the rms height about it" if rms > 1e-9 * rise else "and nothing is left about it"
         )
         text = f"the map is tilted: a plane through it rises by {rise:.3g}, {about}"
-        yield f"{text}; {argument('detrend', 'plane')} removes it"
+        yield f"{text}; argument detrend='plane' removes it"
 
 
 # ---- suspicious values and spikes
@@ -222,10 +221,9 @@ def _suspicious_values(heights: Array) -> Iterator[str]:
         if gap > (1 if is_mark else _FAR) * span and (is_mark or (count > 1 and span > 0)):
             share = 100 * count / (count + others.size)
             exact = f"{value:g}" if float(f"{value:g}") == value else repr(value)
-            removes = f"{spelled(f'--nodata {exact}', f'nodata={exact}')} removes"
             yield (
                 f"{count} points ({share:.2g} %) have the value {exact}, far from all others ({lowest:g} to "
-                f"{highest:g}): if it marks what was not measured, {removes} it"
+                f"{highest:g}): if it marks what was not measured, argument nodata={exact} removes it"
             )
 
 
@@ -246,7 +244,7 @@ def _spikes(heights: Array) -> Iterator[str]:
         yield (
             f"{count} single points stand up to {largest:.3g} above all their neighbours, {largest / usual:.3g} times "
             "the usual step between neighbours: spikes touch first; "
-            f"{argument('nodata')} with their values sets those to nan that are artefacts"
+            f"argument nodata with their values sets those to nan that are artefacts"
         )
 
 
@@ -271,7 +269,7 @@ def _holes(heights: Array) -> Iterator[str]:
         regions, share = f"{count} enclosed region{'' if count == 1 else 's'}", 100 * points / heights.size
         yield (
             f"{regions} without heights ({points} points, {share:.2g} %) are holes that never touch; "
-            f"{argument('fill', 'harmonic')} closes them"
+            f"argument fill='harmonic' closes them"
         )
 
 

@@ -67,7 +67,7 @@ def self_affine_disc(
     rms_over : str, optional
         Set of points whose heights have the standard deviation h: the "disc" or the whole "square".
     length_unit : str, optional
-        Unit of rms and diameter, such as "um". By default the unit is not known.
+        "m" if numbers are in SI units, "1" if they are in consistent units that are not known, the default.
     seed : int or SeedSequence
         Seed of the random numbers. The same seed gives the same realization.
 
@@ -246,7 +246,7 @@ def self_affine_line(
     amplitudes : str, optional
         "random" for complex Gaussian amplitudes, "fixed" for amplitudes equal to the square root of the spectrum.
     length_unit : str, optional
-        Unit of rms and length, such as "um". By default the unit is not known.
+        "m" if numbers are in SI units, "1" if they are in consistent units that are not known, the default.
     seed : int or SeedSequence
         Seed of the random numbers. The same seed gives the same realization.
     dtype : numpy dtype or name, optional

@@ -4,7 +4,6 @@ from typing import Any
 
 import numpy as np
 
-from viscorough.basics.argument_names import spelled
 from viscorough.basics.arrays import positive, real_number, whole_number
 from viscorough.basics.types import Array, Seed
 
@@ -58,17 +57,13 @@ def _roll_off(wavelength: float | None, level: float, period: float) -> tuple[fl
         return 0.0, level
     # Due to this factor, waves of exactly the roll-off wavelength belong to the power law in spite of rounding.
     rounding = 1 - 1e-12
-    return rounding * period / positive(_name_of_wavelength(), wavelength), level
-
-
-def _name_of_wavelength() -> str:
-    return spelled("--roll-off", "roll_off_wavelength")
+    return rounding * period / positive("argument roll_off_wavelength", wavelength), level
 
 
 def scale_factor(rms: float, mean_square: Any) -> float:
     """Return the factor that scales heights of a given mean square to the requested rms height."""
     if mean_square == 0:
-        raise ValueError(f"{_name_of_wavelength()}: must leave at least one wave of two spacings or more")
+        raise ValueError("argument roll_off_wavelength: must leave at least one wave of two spacings or more")
     return rms / np.sqrt(mean_square)
 
 

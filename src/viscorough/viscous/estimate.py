@@ -12,7 +12,6 @@ The penetration law gives the functions D = u/h and V = vt/h. In a Newtonian med
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscorough.basics.argument_names import argument
 from viscorough.basics.arrays import increasing, positive, real_numbers
 from viscorough.basics.summaries import span
 from viscorough.law.calibrated_law import penetration_law
@@ -62,15 +61,15 @@ def estimate(
     """
     law, medium = penetration_law(hurst), medium_of(medium)
     rms, diameter, force = positive("rms", rms), positive("diameter", diameter), positive("force", force)
-    times = np.atleast_1d(real_numbers(argument("times"), times))
-    times = increasing(argument("times"), times, above_zero=True)
+    times = np.atleast_1d(real_numbers("argument times", times))
+    times = increasing("argument times", times, above_zero=True)
     creep, rate = constant_creep(force, medium, times)
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
         x = creep / (4 * rms * diameter)
     inside = (x >= law.x_low) & (x <= law.x_high)
     if not inside.any():
         raise ValueError(
-            f"{argument('times')}: X = F·J(t)/(4hL) is {span(x)}; allowed: {law.x_low:.3g} to {law.x_high:.3g}, where "
+            f"argument times: X = F·J(t)/(4hL) is {span(x)}; allowed: {law.x_low:.3g} to {law.x_high:.3g}, where "
             "the law holds; elsewhere indent a surface made by viscorough generate"
         )
     per_time, covered = rms * rate[inside] / creep[inside], x[inside]

@@ -26,9 +26,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscorough.basics import units
-from viscorough.basics.argument_names import argument, caller, spelled
-from viscorough.basics.arrays import increasing
+from viscorough.basics.arrays import increasing, real_numbers
 from viscorough.basics.errors import AccuracyWarning, ConvergenceError
 from viscorough.basics.types import Array, Integers
 from viscorough.media.creep_response import creep_response
@@ -58,7 +56,7 @@ _UNKNOWN_SHARE = 1e-2
 def kinetics(
     curve: LoadingCurve,
     force: ArrayLike | Load | None = None,
-    medium: Medium | float | str | None = None,
+    medium: Medium | float | None = None,
     times: ArrayLike | None = None,
     *,
     depth: ArrayLike | Load | None = None,
@@ -75,18 +73,16 @@ def kinetics(
     force, depth : array_like or Load, optional
         Prescribed load: either a force or a depth. It is a constant that is applied at time 0; or samples at `times`,
         linear in between, with a time given twice for a step; or a Load, whose samples may be at other times than
-        `times`. Before the first sample there is no load. Forces are F ≥ 0, in N, and depths are in the curve's unit of
-        length. If this unit is known, both may also have a unit (a text such as "5 mN", or a quantity of pint). A
-        negative depth lifts the indenter above the plane of first contact. In a medium without an instantaneous
-        response (Newtonian, Kelvin-Voigt, Springpot), a first depth above 0 would need an infinite force. If it exceeds
-        neither a tenth of the largest depth nor the largest rise from a sample to the next, it is taken to be noise:
-        the depth then rises from 0 to the first sample, within the length of the interval between the first two.
-    medium : Medium or float or str
-        Medium, such as viscorough.Maxwell, or the viscosity η > 0 of a Newtonian medium. If the curve's unit of length
-        is known, moduli, times and viscosities are in Pa, s and Pa s, and a text such as "2 kPa s" is allowed.
-        Otherwise units must be such that F·t/η, or F divided by a modulus, is a length².
+        `times`. Before the first sample there is no load. Forces F ≥ 0 are in N, and depths in m. A negative depth
+        lifts the indenter above the plane of first contact. In a medium without an instantaneous response (Newtonian,
+        Kelvin-Voigt, Springpot), a first depth above 0 would need an infinite force. If it exceeds neither a tenth of
+        the largest depth nor the largest rise from a sample to the next, it is taken to be noise: the depth then rises
+        from 0 to the first sample, within the length of the interval between the first two.
+    medium : Medium or float
+        Medium, such as viscorough.Maxwell, or the viscosity η > 0 of a Newtonian medium [Pa s]. In consistent units
+        instead of SI units, F·t/η, or F divided by a modulus, must be a length².
     times : array_like, optional
-        Increasing times of the output, in s or with a unit; 0 or later for a constant load. The default for a Load is
+        Increasing times of the output [s]; 0 or later for a constant load. The default for a Load is
         the times of its samples. The default for a constant force is a hundred times with equal ratios, while the creep
         goes from the first to the last level of the curve, or until it has almost ended. If the medium responds
         elastically at time 0, time 0 precedes them.
@@ -126,7 +122,7 @@ def kinetics(
     array([0.0145, 0.0088, 0.    ])
     """
     check_curve("kinetics", curve)
-    medium = medium_of(medium, curve.length_unit)  # type: ignore[arg-type]  # None is refused
+    medium = medium_of(medium)  # type: ignore[arg-type]  # None is refused
     load, place = _load_and_places(curve, medium, force, depth, times)
     if load.by_depth:
         _check_depths(curve, load.values[: place[-1] + 1])
@@ -138,13 +134,12 @@ def kinetics(
     receding_from = _receding_from(spectrum, load)
     if receding_from >= load.time[place[-1]]:
         receding_from = np.nan
-    force = refined.force[place] * units.square_metres(curve.length_unit)
     depth, velocity, fraction = refined.depth[place], refined.velocity[place], refined.contact_fraction[place]
-    return Motion(load.time[place], depth, force, velocity, fraction, curve.length_unit, receding_from)
+    return Motion(load.time[place], depth, refined.force[place], velocity, fraction, curve.length_unit, receding_from)
 
 
 def row_motion(curve: LoadingCurve, row: RowOfSprings, spectrum: Spectrum, load: Load, last: int = -1) -> RowMotion:
-    """Return the motion of the row of springs of a curve under a load in consistent units.
+    """Return the motion of the row of springs of a curve under a load.
 
     last : index of the last sample of the load at which the motion is needed
 
@@ -154,7 +149,7 @@ def row_motion(curve: LoadingCurve, row: RowOfSprings, spectrum: Spectrum, load:
     if moved.ended == RESTLESS and np.isfinite(moved.depth[~np.isnan(moved.depth)]).all():
         raise ConvergenceError(f"kinetics: the contact does not settle at time {moved.until:g}; other samples may help")
     if moved.ended not in (BEYOND, INFINITE):
-        _check_overflow(load, moved.depth[last] + moved.force[last])
+        _check_overflow(moved.depth[last] + moved.force[last])
     if np.isnan(moved.depth[last]):
         _refuse(curve, row, spectrum, load, moved)
     return moved
@@ -172,55 +167,40 @@ def _receding_from(spectrum: Spectrum, load: Load) -> float:
     return float(load.time[np.argmax(falls)]) if falls.any() else np.nan
 
 
-def _load_name(quantity: str) -> str:
-    """Return the name of the argument that prescribes the load, for messages.
-
-    In Python the name is "force" or "depth"; on the command line it is the corresponding option.
-
-    quantity : "force" or "depth"
-    """
-    return spelled({"force": "--force or --force-history", "depth": "--depth-history"}[quantity], quantity)
-
-
-def _check_overflow(load: Load, values: ArrayLike) -> None:
-    """Raise ValueError unless all values are finite.
-
-    load : load under which the values were computed, for the message
-    """
+def _check_overflow(values: ArrayLike) -> None:
+    """Raise ValueError unless all values are finite."""
     if not np.isfinite(values).all():
-        kind = "depth" if load.by_depth else "force"
         raise ValueError(
-            f"{_load_name(kind)}: depths or forces overflow in this medium; allowed: forces, depths and moduli whose "
+            "load: depths or forces overflow in this medium; allowed: forces, depths and moduli whose "
             "ratios are ordinary numbers; check their units"
         )
 
 
 def _load_and_places(curve: LoadingCurve, medium: Medium, force: Any, depth: Any, times: Any) -> tuple[Load, Integers]:
-    """Return the load in consistent units, with samples added at the output times, and the indices of these samples.
+    """Return the load, with samples added at the output times, and the indices of these samples.
 
     The load ends at the first sample after the last output time. The arguments are explained in `kinetics`.
     """
-    unit = curve.length_unit
     if isinstance(force, Load) and depth is None and force.by_depth:
         force, depth = None, force
     if (force is None) == (depth is None):
         raise ValueError("kinetics: one of force and depth is needed")
     name, value = ("depth", depth) if force is None else ("force", force)
     if times is not None:
-        times = units.numbers(times, "s", unit, "times")
+        times = real_numbers("times", times)
     constant = False
     if isinstance(value, Load):
         if value.by_depth != (name == "depth"):
             raise ValueError(
                 f"kinetics: {name}: a Load that prescribes the other quantity; {name}=Load(..., {name}=...)"
             )
-        load = value.in_units_of(unit)
+        load = value
     else:
-        values = units.numbers(value, "N" if name == "force" else unit, unit, name)
+        values = real_numbers(name, value)
         if values.ndim:
             if times is None:
                 raise ValueError(f"times: missing; a {name} given as samples needs the time of each sample")
-            load, times = Load(times, **{name: values}).in_units_of(unit), None
+            load, times = Load(times, **{name: values}), None
         else:
             constant = True
             load, times = _constant(curve, medium, name, float(values), times)
@@ -236,22 +216,18 @@ def _load_and_places(curve: LoadingCurve, medium: Medium, force: Any, depth: Any
 
 
 def _constant(curve: LoadingCurve, medium: Medium, name: str, value: float, times: Any) -> tuple[Load, Array]:
-    """Return a constant load from time 0 on as a Load in consistent units, and the output times.
+    """Return a constant load from time 0 on, and the output times.
 
     name, value : "force" or "depth", and the value of the constant
     times : output times, or None for the default times
     """
     if not np.isfinite(value) or (name == "force" and value <= 0):
         raise ValueError(f"constant {name}: {value}; allowed: a finite number{' above 0' if name == 'force' else ''}")
-    if name == "force":
-        value /= units.square_metres(curve.length_unit)
-    elif times is None:
+    if name == "depth" and times is None:
         raise ValueError("times: missing; a constant depth needs the times of the output")
     times = _spread_times(curve, value, medium) if times is None else increasing("times", times)
     if times[0] < 0:
-        raise ValueError(
-            f"{argument('times')}: start at {times[0]:g}; allowed: from 0 on, where a constant {name} begins"
-        )
+        raise ValueError(f"argument times: start at {times[0]:g}; allowed: from 0 on, where a constant {name} begins")
     samples = np.unique([0.0, times[-1]])
     return Load(samples, **{name: np.full(samples.size, value)}), times
 
@@ -268,7 +244,7 @@ def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
     first, last = curve.force[0] if curve.force.size > 1 else _EARLY * curve.force[-1], curve.force[-1]
     if not (at_once < last and at_last > first):
         raise ValueError(
-            f"{argument('times')}: missing, and the creep is from F/G {at_once:.6g}, at once, to {at_last:.6g}, in the "
+            f"argument times: missing, and the creep is from F/G {at_once:.6g}, at once, to {at_last:.6g}, in the "
             f"end, beside the curve, from {first:.6g} to {last:.6g}; times or another force are needed"
         )
     # Before the first level and after the last the depth is unknown, so the times keep clear of them by more than the
@@ -291,8 +267,8 @@ def _check_depths(curve: LoadingCurve, depths: Array) -> None:
     last = curve.depth[-1]
     if depths.max() > last * (1 + ROUNDING) and curve.contact_count[-1] < curve.elements:
         raise ValueError(
-            f"{_load_name('depth')}: {depths.max():g} is beyond the curve's last level; allowed: up to {last:g}; "
-            f"indent further, with {argument('until_fraction', 1)}"
+            f"load: the depth {depths.max():g} is beyond the curve's last level; allowed: up to {last:g}; "
+            f"indent further, with argument until_fraction=1"
         )
 
 
@@ -302,9 +278,9 @@ def _check_creep(curve: LoadingCurve, row: RowOfSprings, times: Array, creep: Ar
     if beyond.any() and np.isfinite(row.limit):
         where, enough = int(np.argmax(beyond)), 1.01 * creep[np.isfinite(creep)].max()
         raise ValueError(
-            f"{_load_name('force')}: at time {times[where]:g} the creep ∫J dF is {creep[where]:.6g}, beyond the "
+            f"load: at time {times[where]:g} the creep ∫J dF is {creep[where]:.6g}, beyond the "
             f"curve's last level; allowed: up to {curve.force[-1]:.6g}; indent further, with "
-            f"{argument('until_fraction', 1)} or, in units of F/G, {argument('until_force', f'{enough:.3g}')}"
+            f"argument until_fraction=1 or, in units of F/G, argument until_force={enough:.3g}"
         )
 
 
@@ -312,15 +288,14 @@ def _refuse(curve: LoadingCurve, row: RowOfSprings, spectrum: Spectrum, load: Lo
     """Raise the ValueError that states why a motion ended early."""
     if moved.ended == INFINITE:
         raise ValueError(
-            f"{_load_name('depth')}: steps into the surface at time {moved.until:g}, which takes an infinite force "
-            "here; allowed: ramps"
+            f"load: steps into the surface at time {moved.until:g}, which takes an infinite force here; allowed: ramps"
         )
     if not load.by_depth:
         _check_creep(curve, row, load.time, creep_response(spectrum, load))
     raise ValueError(
-        f"{_load_name('depth' if load.by_depth else 'force')}: at time {moved.until:g} the contact grows beyond the "
+        f"load: at time {moved.until:g} the contact grows beyond the "
         f"curve's last level; allowed: depths up to {curve.depth[-1]:g}; indent further, with "
-        f"{argument('until_fraction', 1)}"
+        f"argument until_fraction=1"
     )
 
 
@@ -339,7 +314,7 @@ def _warn_of_the_beginning(curve: LoadingCurve, row: RowOfSprings, load: Load, m
     share = curve.force[0] / max(np.nanmax(moved.deflection), np.finfo(float).tiny)
     if depends and share > _UNKNOWN_SHARE:
         warnings.warn(
-            f"{caller('kinetics')}the motion depends on the curve before its first level, which is taken for a power "
+            f"the motion depends on the curve before its first level, which is taken for a power "
             f"law; this level carries {100 * min(share, 1):.2g} % of the largest elastic force; an earlier first level "
             "is needed",
             AccuracyWarning,

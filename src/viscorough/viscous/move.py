@@ -39,7 +39,6 @@ from typing import NamedTuple
 import numpy as np
 
 from viscorough.basics.compilation import njit
-from viscorough.basics.interrupts import uninterrupted
 from viscorough.basics.types import Array, Integers, Mask
 from viscorough.media.creep_response import decay, exponential
 from viscorough.media.spectra import Spectrum
@@ -231,8 +230,7 @@ def move_row(
     INFINITE if a step of the depth presses on a parallel dashpot. It ends with RESTLESS if springs touch and are
     released at the same time without end, which should not happen.
     """
-    with uninterrupted():
-        motion = RowMotion(*_march(gaps, weights, limit, spectrum, times - times[0], load, by_depth))
+    motion = RowMotion(*_march(gaps, weights, limit, spectrum, times - times[0], load, by_depth))
     return motion._replace(released_from=motion.released_from + times[0], until=motion.until + times[0])
 
 

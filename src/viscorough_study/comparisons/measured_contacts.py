@@ -12,10 +12,9 @@ import numpy as np
 import pandas as pd
 
 from viscorough import AccuracyWarning, contact_at, indent
-from viscorough.basics import units
 from viscorough.basics.elasticity import young_over_shear
 from viscorough.basics.errors import REPORTED, message
-from viscorough.io.contact_tables import MEANINGS, MEASURES, WITH_MODULUS, rows_of_contacts
+from viscorough.io.contact_tables import MEANINGS, MEASURES, WITH_MODULUS, result_units, rows_of_contacts
 from viscorough.io.curves import ABOUT_GRID
 from viscorough_study.ensembles.measured import measured_indenter
 
@@ -29,7 +28,7 @@ CONTACTS = {
     "group": ("group of scans", None),
     "file": ("file of heights", None),
     **{
-        name: (MEANINGS[name], "1" if measure is None else units.result_units("um", 1.0)[measure].name)
+        name: (MEANINGS[name], "1" if measure is None else result_units("m", 1.0)[measure].name)
         for name, measure in _COLUMNS.items()
     },
     **{name: (text, None) for name, text in _TEXTS.items()},
@@ -101,13 +100,14 @@ def rows_with_grid_errors(indenter, forces, shear_modulus) -> list[dict[str, Any
 
     forces : increasing forces [N]; shear_modulus : G [Pa]
     """
-    contacts = contact_at(indenter, force=list(forces), shear_modulus=shear_modulus)
+    contacts = contact_at(indenter, force=np.divide(forces, shear_modulus))
     levels = _with_forces_below(np.array([contact.force for contact in contacts]))
     # The computation of the contacts has already given the same warnings.
     with warnings.catch_warnings(action="ignore", category=AccuracyWarning):
         curve = indent(indenter, forces=levels, estimate_grid_error=True)
     places = [int(np.argmin(np.abs(curve.force - contact.force))) for contact in contacts]
-    rows, _ = rows_of_contacts(contacts, {name: getattr(curve, name)[places] for name in ABOUT_GRID})
+    errors = {name: getattr(curve, name)[places] for name in ABOUT_GRID}
+    rows, _ = rows_of_contacts(contacts, shear_modulus, errors)
     return list(rows)
 
 

@@ -18,7 +18,7 @@ def measured_indenter(file, *, spacing, unit, preparation):
     indenter = read_heights(file, spacing, unit=unit, **preparation)
     if indenter.length_unit == "1":
         raise ValueError(f"{file}: states no unit of length; measured.unit in the settings is needed")
-    return indenter.to("m")
+    return indenter
 
 
 def lengths(indenter):

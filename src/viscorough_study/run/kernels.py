@@ -13,6 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
+from viscorough.basics.compiled_code import code_folder
+
 _STAMP = ".snakemake/kernels"
 
 
@@ -103,18 +105,21 @@ def compile_in_two_processes():
 def compile_once(digest):
     """Compile all functions in another process, unless an earlier run in this folder has compiled the same source code.
 
-    digest : digest of the source code of the functions, which is stored in the folder
+    The functions are also compiled again if numba has another version, or if the folder of the compiled code was
+    removed. Otherwise all jobs that run side by side would compile them.
+
+    digest : digest of the source code of the functions, which is stored with the name of the folder of their code
 
     There is no Snakemake rule for the compilation, because many jobs would need its output as an input. All these jobs
     would be rerun whenever this output is remade. If the input were marked as `ancient`, Snakemake would not notice
     changed parameters of these jobs.
     """
-    stamp = Path(_STAMP)
-    if stamp.is_file() and stamp.read_text() == digest:
+    stamp, compiled = Path(_STAMP), f"{digest}\n{code_folder()}\n"
+    if stamp.is_file() and stamp.read_text() == compiled and any(code_folder().rglob("*.nbi")):
         return
     print("Compiling the solvers, once: about 30 seconds", file=sys.stderr, flush=True)
     subprocess.run([sys.executable, "-m", "viscorough_study.run.kernels"], check=True)
-    stamp.write_text(digest)
+    stamp.write_text(compiled)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,5 @@
 """Units as users and files write them."""
 
-import pint
 import pytest
 
 from support.command_line import python
@@ -65,8 +64,11 @@ def test_common_units_do_not_need_pint():
     assert "pint" not in modules
 
 
-@pytest.mark.parametrize("force", ["5 mN", "2", units.Quantity(5.0, "mN"), pint.Quantity(5.0, "mN")])
-def test_force_with_a_unit_needs_a_modulus(force):
-    with pytest.raises(ValueError, match=r"^force .*: a force needs shear_modulus"):
-        units.forces_over_modulus([1.0, force], None, "m", "force")
-    assert units.forces_over_modulus([1.0, units.Quantity(2.0)], None, "m", "force").tolist() == [1.0, 2.0]
+def test_numbers_are_converted_to_si_units():
+    assert units.in_si(units.Quantity(2.0), "m", "um", "x") == 2e-6
+    assert units.in_si(units.Quantity(2.0, "mN"), "N", "um", "x") == 2e-3
+    assert units.in_si(units.Quantity(2.0), "m", "1", "x") == 2.0
+    with refused("x 2 mN: needs a plain number"):
+        units.in_si(units.Quantity(2.0, "mN"), "N", "1", "x")
+    with refused("x 2 mN: .* cannot be converted to m"):
+        units.in_si(units.Quantity(2.0, "mN"), "m", "um", "x")

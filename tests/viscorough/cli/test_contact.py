@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import viscorough
-from support.command_line import run, values
+from support.command_line import run, save_in, values
 from support.tables import read_table
 from viscorough import Indenter, contact_at, self_affine_disc
 from viscorough.io import netcdf
@@ -15,7 +15,7 @@ def here(here):
     """Make a folder with heights.npy, a rough disc, and um.nc, the same disc in micrometres."""
     heights = self_affine_disc(0.7, 25, rms=0.3, diameter=25, seed=2).heights
     np.save("heights.npy", heights)
-    viscorough.save(Indenter(heights, 1.0, length_unit="um"), "um.nc")
+    save_in("um", Indenter(1e-6 * heights, 1e-6, length_unit="m"), "um.nc")
     return here
 
 

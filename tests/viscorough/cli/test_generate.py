@@ -22,7 +22,7 @@ def disc(**options):
 def test_disc_has_heights_coordinates_and_units_and_is_read_back_by_indent():
     assert run(f"{DISC} {END}") == 0
     made = netcdf.read("made.nc")
-    np.testing.assert_array_equal(made.variables["heights"].values, disc().heights)
+    np.testing.assert_allclose(made.variables["heights"].values, disc().heights, rtol=1e-14)
     assert made.variables["heights"].dimensions == ("y", "x")
     for name in ("x", "y"):
         np.testing.assert_allclose(made.variables[name].values, 2.0 * (np.arange(17) - 8), rtol=1e-15)
@@ -30,15 +30,16 @@ def test_disc_has_heights_coordinates_and_units_and_is_read_back_by_indent():
     assert (made.attributes["hurst"], made.attributes["seed"], made.attributes["diameter"]) == (0.7, 5, 34)
     assert run("indent made.nc -o curve.nc") == 0
     curve = load_curve("curve.nc")
-    np.testing.assert_allclose(curve.force, indent(disc()).force, rtol=1e-9)
-    assert curve.length_unit == "um"
+    np.testing.assert_allclose(curve.force, 1e-12 * indent(disc()).force, rtol=1e-9)
+    assert curve.length_unit == "m"
 
 
 def test_line_is_read_back_by_reduce():
     assert run(f"{LINE} {END}") == 0
     line = read_line("made.nc")
-    np.testing.assert_array_equal(line.heights, self_affine_line(0.7, 256, rms=0.2, length=128, seed=5).heights)
-    assert (line.spacing, line.length_unit) == (pytest.approx(0.5, rel=1e-12), "um")
+    expected = self_affine_line(0.7, 256, rms=0.2, length=128, seed=5).heights
+    np.testing.assert_allclose(line.heights, 1e-6 * expected, rtol=1e-5, atol=1e-13)
+    assert (line.spacing, line.length_unit) == (pytest.approx(5e-7, rel=1e-12), "m")
     assert run("reduce made.nc -o curve.nc") == 0
 
 

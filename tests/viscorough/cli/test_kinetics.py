@@ -10,7 +10,7 @@ import pytest
 import yaml
 
 import viscorough
-from support.command_line import run, sphere_heights, values
+from support.command_line import run, save_in, sphere_heights, values
 from viscorough import Indenter, Load, indent, kinetics
 from viscorough.io import netcdf
 from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
@@ -42,7 +42,8 @@ def curve():
 def here(curve, here):
     """Make a folder with a curve without a unit, the same in micrometres, and media and force histories."""
     viscorough.save(curve, "curve.nc")
-    viscorough.save(dataclasses.replace(curve, length_unit="um"), "um.nc")
+    lengths = {"depth": 1e-6 * curve.depth, "force": 1e-12 * curve.force, "stiffness": 1e-6 * curve.stiffness}
+    save_in("um", dataclasses.replace(curve, **lengths, length_unit="m"), "um.nc")
     (here / "force.csv").write_text("time,force\n0,0\n1,0.2\n1,0.3\n9,0.3\n")
     (here / "medium.yaml").write_text(MEDIA["maxwell"][0])
     return here

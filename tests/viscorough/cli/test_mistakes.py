@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import viscorough
-from support.command_line import sphere_heights
+from support.command_line import save_in, sphere_heights
 from support.curves import random_curve
 from viscorough import Indenter
 from viscorough.io.netcdf import Content, Variable, write
@@ -108,7 +108,7 @@ MISTAKES = [
         for times in ("0:1", "1:0:3", "0:1:2.5")
     ],
     (f"{KINETICS} --force 1e-320 --viscosity 1", "--times: missing, and the creep is"),
-    (f"{KINETICS} --depth-history deep.csv --viscosity 1", "--depth-history: 4e+06 is beyond the curve's last level"),
+    (f"{KINETICS} --depth-history deep.csv --viscosity 1", "load: the depth 4e+06 is beyond the curve's last level"),
     (GENERATE, "either --elements (a disc) or --points (a line) is needed"),
     (f"{GENERATE} --elements 5 --plateau", "--plateau is for use with --roll-off"),
     (f"{MARCH} events", "one of --times and --force-history is needed"),
@@ -120,7 +120,7 @@ MISTAKES = [
         (f"{MARCH} {method} --force 1e300 --viscosity 1e-300 --times 1", "depths or forces overflow")
         for method in ("events", "implicit")
     ],
-    ("reduce text.npy --spacing 1 --unit 1 -o out.nc", "text.npy: indenter heights: must be real numbers"),
+    ("reduce text.npy --spacing 1 --unit 1 -o out.nc", "text.npy: indenter heights: an array of <U1; real numbers"),
     ("reduce line.npy --spacing 1 --unit 1 --realizations 2 -o out.nc", "--realizations and --seed are for maps"),
     ("reduce line.npy --spacing 1 --unit 1 --flip -o out.nc", "--channel and preparation are for maps"),
     ("reduce heights.npy --spacing 1 --unit 1 --realizations 2 -o a.csv", "several curves are no table"),
@@ -132,7 +132,7 @@ MISTAKES = [
         (f"plot heights.npy -o out.png --unit 1 --spacing '{text}'", "--spacing")
         for text in ("", "1,2,3", "1 V", "1 um")
     ],
-    ("plot heights.npy -o out.png --unit 1 --spacing 1,-1", "spacing: must be positive"),
+    ("plot heights.npy -o out.png --unit 1 --spacing 1,-1", "spacing: must be a positive number"),
     ("plot heights.npy -o out.png --spacing 1 --unit V", "unit 'V': not a unit"),
     *[(f"{INDENT} --nodata '{value}'", f"--nodata {value}") for value in ("a", "1,")],
     *[(f"{INDENT} --crop '{crop}'", f"--crop {crop}") for crop in ("1:2", "-1:2,0:3")],
@@ -153,8 +153,8 @@ def test_mistakes_are_one_line(here, complaint, line, what):
     np.save("line.npy", np.arange(3.0))
     np.save("text.npy", np.array(["a"]))
     viscorough.save(random_curve(length_unit="1"), "curve.nc")
-    for name, unit in (("map.nc", "1"), ("um.nc", "um")):
-        viscorough.save(Indenter(sphere_heights(9), 1.0, length_unit=unit), name)
+    viscorough.save(Indenter(sphere_heights(9), 1.0), "map.nc")
+    save_in("um", Indenter(1e-6 * sphere_heights(9), 1e-6, length_unit="m"), "um.nc")
     write(Content({"a": Variable(("b",), np.arange(3.0), {"long_name": "a", "units": "1"})}, {}), "other.nc")
     (here / "medium.yaml").write_text("{kind: newtonian, viscosity: 30}")
     (here / "table.csv").write_text("0,0\n1e-6,1e-12\n")

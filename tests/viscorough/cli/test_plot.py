@@ -75,7 +75,7 @@ def test_axes_are_in_si_units_with_a_modulus(here):
     assert run("indent disc.nc --shear-modulus '2 MPa' -o si_curve.nc") == 0
     (axes,) = viscorough.plot(netcdf.read("si_curve.nc")).axes
     assert axes_of("si_curve.nc") == ("depth (um)", "force F (N)")
-    np.testing.assert_allclose(axes.lines[0].get_ydata(), 2e-6 * viscorough.load_curve("si_curve.nc").force)
+    np.testing.assert_allclose(axes.lines[0].get_ydata(), 2e6 * viscorough.load_curve("si_curve.nc").force)
     assert run("contact disc.nc --depth 0.3 --shear-modulus '2 MPa' -o si_fields.nc") == 0
     axes, colours = viscorough.plot(netcdf.read("si_fields.nc")).axes
     assert colours.get_ylabel() == "pressure p (Pa)"
@@ -114,7 +114,7 @@ def test_notebooks_show_results_as_table_and_plot(monkeypatch, with_matplotlib):
     if not with_matplotlib:
         monkeypatch.delattr("viscorough.io.plotting")
         monkeypatch.setitem(sys.modules, "viscorough.io.plotting", None)
-    curve = viscorough.indent(viscorough.Indenter(sphere_heights(17), 1.0, length_unit="um"))
+    curve = viscorough.indent(viscorough.Indenter(1e-6 * sphere_heights(17), 1e-6, length_unit="m"))
     html, (title, line, *_) = curve._repr_html_(), str(curve).splitlines()
     name, depth = "depth u", line.split(", ")[0].removeprefix("depth u ")
     assert html.startswith(f"<table><caption>{title}</caption><tr><td>{name}</td><td>{depth}</td></tr><tr>")

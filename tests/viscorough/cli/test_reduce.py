@@ -9,6 +9,7 @@ from viscorough import Indenter, load_curve, mdr, self_affine_disc, self_affine_
 from viscorough.io import netcdf
 
 LINE = self_affine_line(0.6, 512, rms=0.2, length=128.0, seed=3)
+IN_METRES = Indenter(LINE.heights.astype(float) * 1e-6, 2.5e-7, length_unit="m")
 DISC = self_affine_disc(0.6, 17, rms=0.2, diameter=17.0, seed=3)
 
 
@@ -23,8 +24,8 @@ def test_reduce_reads_a_line_from_a_file(capsys):
     assert run("reduce line.npy --spacing '250 nm' --unit um --until-fraction 0.5 -o curve.nc") == 0
     assert "curves" not in capsys.readouterr().out
     curve = load_curve("curve.nc")
-    assert curve.length_unit == "um"
-    np.testing.assert_allclose(curve.force, mdr.reduce(LINE, until_fraction=0.5).force, rtol=1e-14)
+    assert curve.length_unit == "m"
+    np.testing.assert_allclose(curve.force, mdr.reduce(IN_METRES, until_fraction=0.5).force, rtol=1e-12)
     assert curve.contact_fraction[-2] < 0.5 <= curve.contact_fraction[-1]
 
 
@@ -32,7 +33,7 @@ def test_reduce_warns_of_a_measured_profile(capsys):
     np.savetxt("line.txt", LINE.heights)
     assert run("reduce line.txt --spacing 0.25 --unit um -o curve.nc") == 0
     assert "line.txt: a line cut from a measured surface is stiffer than the surface" in capsys.readouterr().err
-    np.testing.assert_allclose(load_curve("curve.nc").force, mdr.reduce(LINE).force, rtol=1e-12)
+    np.testing.assert_allclose(load_curve("curve.nc").force, mdr.reduce(IN_METRES).force, rtol=1e-12)
     viscorough.save(LINE, "line.nc")
     assert run("reduce line.nc -o curve.nc") == 0
     assert capsys.readouterr().err == ""

@@ -45,11 +45,12 @@ def test_channel_and_preparation_are_passed_on_and_recorded(capsys):
     xr.Dataset(variables).to_netcdf("marked.nc")
     preparation = "--nodata -9999 --crop 0:15,0:16 --detrend plane --fill harmonic --flip"
     curve, attributes = curve_of(capsys, f"marked.nc {SPACING} {DEPTHS} --channel b {preparation}")
-    surface = Indenter(marked, DX, DY, length_unit="um")
+    surface = Indenter(marked, DX, DY)
     crop = (0, 15), (0, 16)
     surface = prepare(surface, nodata=-9999, crop=crop, detrend="plane", fill="harmonic", flip=True)
     expected = indent(surface, depths=[0.05, 0.2])
-    np.testing.assert_allclose([curve.force, curve.stiffness], [expected.force, expected.stiffness], rtol=1e-9)
+    np.testing.assert_allclose(curve.force, 1e-12 * expected.force, rtol=1e-9)
+    np.testing.assert_allclose(curve.stiffness, 1e-6 * expected.stiffness, rtol=1e-9)
     assert curve.elements == 15 * 16 - 3
     expected = {"spacing": DX, "row_spacing": DY, "length_unit": "um", "heights": "marked.nc", "channel": "b"}
     assert {name: attributes[name] for name in expected} == expected

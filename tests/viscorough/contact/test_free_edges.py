@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 from viscorough import AccuracyWarning, Indenter, contact_at, indent, reference
+from viscorough.basics.summaries import with_unit
 from viscorough.surfaces.self_affine import self_affine_square
 
 BORDER = "the border of the map carries more than 5 % of the force although less than 30 % of its elements touch"
-FLAT = Indenter(0.01 * self_affine_square(0.8, 65, seed=1), 1 / 64, length_unit="um", from_file=True)
+FLAT = Indenter(0.01 * self_affine_square(0.8, 65, seed=1), 1 / 64, length_unit="m", from_file=True)
 # The border lies far below the centre, where the sphere touches.
 BALL = replace(reference.sphere(2.0).indenter(65), from_file=True)
 
@@ -24,7 +25,7 @@ def caught():
 
 @pytest.mark.parametrize("levels", [{}, {"depths": [0.01, 0.02]}, {"forces": [1e-3, 1e-2]}], ids=str)
 def test_curve_of_a_flat_scan_states_the_depth(levels):
-    with pytest.warns(AccuracyWarning, match=f"^indent: from the depth u, .* um, on, {BORDER}"):
+    with pytest.warns(AccuracyWarning, match=f"^from the depth u, .* mm, on, {BORDER}"):
         indent(FLAT, **levels)
 
 
@@ -38,11 +39,11 @@ def test_depth_is_that_from_which_on_the_border_carries_the_force(caught):
     first = next(contact for contact, share in zip(contacts, shares, strict=True) if share > 0.05)
     assert contacts[0] is not first
     (warning,) = caught
-    assert f"from the depth u, {first.depth:.4g} um, on" in str(warning.message)
+    assert f"from the depth u, {with_unit(first.depth, 'm')}, on" in str(warning.message)
 
 
 def test_one_contact_of_a_flat_scan_is_a_warning():
-    with pytest.warns(AccuracyWarning, match=f"^contact_at: from the depth u, .*{BORDER}"):
+    with pytest.warns(AccuracyWarning, match=f"^from the depth u, .*{BORDER}"):
         contact_at(FLAT, force=1e-2)
 
 

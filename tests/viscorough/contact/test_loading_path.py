@@ -189,7 +189,7 @@ def test_invalid_arguments_are_refused():
         ({"depths": [0.2, 0.1]}, "each larger than the one before"),
         ({"depths": []}, "finite"),
         ({"indenter": Indenter(np.zeros(5), 1.0)}, "two-dimensional"),
-        ({"forces": [0.0, 1.0]}, "indent: forces: allowed is one row of finite numbers above 0"),
+        ({"forces": [0.0, 1.0]}, "argument forces: allowed is one row of finite numbers above 0"),
         ({"forces": [1.0], "depths": [1.0]}, "indent: depths and forces exclude each other"),
     ):
         with pytest.raises(ValueError, match=message):
@@ -255,7 +255,7 @@ def test_element_that_touches_late_in_a_converged_step_joins():
 
 def test_levels_closer_than_the_accuracy_are_refused():
     disc, steps = self_affine_disc(0.7, 65, rms=0.01, seed=1), np.arange(12)
-    with refused(r"indent: depths: 0\.02000002\d* and 0\.02000004\d* are closer than the accuracy"):
+    with refused(r"argument depths: 0\.02000002\d* and 0\.02000004\d* are closer than the accuracy"):
         indent(disc, depths=0.02 * (1 + 1e-6 * steps), tolerance=0.1)
     for name in ("depths", "forces"):
         assert indent(disc, **{name: 0.02 * (1 + 1e-3 * steps)}, tolerance=0.1).depth.size == steps.size
@@ -275,6 +275,6 @@ def test_elements_that_touch_at_once_beyond_the_end_are_a_warning():
     heights = np.full((30, 30), -10.0)
     heights[10:20, 10:20] = 0.0
     conformal = Indenter(heights + contact_at(Indenter(heights, 1.0), depth=0.5, tolerance=1e-10).gap, 1.0)
-    with pytest.warns(AccuracyWarning, match=r"ends at a contact fraction of 1, beyond until_fraction 0\.3; too many"):
+    with pytest.warns(AccuracyWarning, match=r"contact fraction of 1, beyond argument until_fraction 0\.3; too many"):
         curve = indent(conformal, until_fraction=0.3)
     assert curve.contact_fraction[-2] < 0.3

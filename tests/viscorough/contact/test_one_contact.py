@@ -75,22 +75,25 @@ def test_contact_equals_a_level_of_the_curve():
 
 
 def test_one_value_gives_one_contact_in_the_unit_of_the_indenter_and_several_a_list():
-    disc = Indenter(DISC.heights, DISC.spacing, length_unit="um")
+    disc = Indenter(DISC.heights, DISC.spacing, length_unit="m")
     single, several = contact_at(disc, force=0.01), contact_at(disc, force=[0.01])
     assert isinstance(several, list)
     assert single.depth == several[0].depth
-    assert (single.length_unit, single.spacing, single.row_spacing) == ("um", DISC.spacing, DISC.spacing)
+    assert (single.length_unit, single.spacing, single.row_spacing) == ("m", DISC.spacing, DISC.spacing)
 
 
 def test_invalid_arguments_are_refused():
     for arguments, message in (
-        ({"depth": 1.0, "force": 1.0}, "either depth or force must be given"),
-        ({"force": [2.0, 1.0]}, "force: allowed is one row of finite numbers above 0, each larger"),
-        ({"depth": []}, "depth: allowed is one row"),
-        ({"depth": 1.0, "tolerance": 1.0}, "tolerance must be between"),
-        ({"indenter": Indenter(np.zeros(5), 1.0), "depth": 1.0}, "the indenter's heights must be two-dimensional"),
+        ({"depth": 1.0, "force": 1.0}, "contact_at: either depth or force must be given"),
+        ({"force": [2.0, 1.0]}, "argument force: allowed is one row of finite numbers above 0, each larger"),
+        ({"depth": []}, "argument depth: allowed is one row"),
+        ({"depth": 1.0, "tolerance": 1.0}, "argument tolerance must be between"),
+        (
+            {"indenter": Indenter(np.zeros(5), 1.0), "depth": 1.0},
+            "contact_at: the indenter's heights must be two-dim",
+        ),
     ):
-        with pytest.raises(ValueError, match=f"contact_at: {message}"):
+        with pytest.raises(ValueError, match=message):
             contact_at(**({"indenter": DISC} | arguments))
 
 

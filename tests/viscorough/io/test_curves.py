@@ -73,6 +73,17 @@ def test_curve_is_read_exactly_as_written(tmp_path, name, levels, about):
         load_curve(tmp_path / "map.nc")
 
 
+def test_lengths_are_converted_to_metres():
+    in_metres = random_curve()
+    factors = {"depth": 1e9, "force": 1e18, "stiffness": 1e9}
+    numbers = {name: getattr(in_metres, name) * factor for name, factor in factors.items()}
+    content = units(depth="nm", force="nm2", stiffness="nm")(curve_to_content(random_curve(**numbers)))
+    curve = curve_from_content(content)
+    assert curve.length_unit == "m"
+    for name in factors:
+        np.testing.assert_allclose(getattr(curve, name), getattr(in_metres, name), rtol=1e-14)
+
+
 def test_curves_of_one_unit_are_stacked():
     curves = [random_curve(5), random_curve(1, seed=1, method="dense"), random_curve(9, seed=2)]
     content = stack_curves(curves)
@@ -81,8 +92,8 @@ def test_curves_of_one_unit_are_stacked():
     assert content.variables["levels"].values.tolist() == [5, 1, 9]
     with refused("at least one"):
         stack_curves([])
-    with refused("lengths are in m and um; one unit is allowed"):
-        stack_curves([*curves, random_curve(length_unit="um")])
+    with refused("lengths are in m and 1; one unit is allowed"):
+        stack_curves([*curves, random_curve(length_unit="1")])
 
 
 WHOLE, FROM_0 = "a whole number.* is needed", "a number from 0 on.* is needed"
@@ -101,17 +112,17 @@ IMPOSSIBLE = [
     *[(attribute("method", value), "text is needed") for value in (3, np.array(["a", "b"]))],
     (attribute("elements", 1), "a whole number from 1 to 1"),
     (attribute("tolerance", 1.0), "a number below 1 is needed"),
-    *[(attribute("length_unit", value), "attribute length_unit is") for value in ("m", 3, "N")],
+    *[(attribute("length_unit", value), "attribute length_unit is") for value in ("um", 3, "N")],
     (entry("contact_count", 0, 0), "a whole number from 1 to 200"),
     (entry("contact_count", 3, 1), "contact_count must not decrease"),
     (entry("residual", 3, 1e-2), "residual must be from 0 to the tolerance"),
     (entry("stiffness", 3, 1e-3), "stiffness must not decrease"),
     (values("force", lambda force: 1e6 * force), "force must rise with the depth"),
     (values("force", lambda force: 1e-6 * force), "force must rise with the depth"),
-    *[(units(force=unit), f"force is in '{unit}' and depth in 'um'") for unit in ("nm2", "um", "1", "µm2")],
-    (units(force=None), "force is in '1' and depth in 'um'; 'um2' is needed for force"),
+    *[(units(force=unit), f"force is in '{unit}' and depth in 'm'") for unit in ("nm2", "m", "1", "µm2")],
+    (units(force=None), "force is in '1' and depth in 'm'; 'm2' is needed for force"),
     (units(depth="N", force="N2", stiffness="N"), "'N': not a unit of length"),
-    (units(depth="1", force="1"), "stiffness is in 'um' and depth in '1'"),
+    (units(depth="1", force="1"), "stiffness is in 'm' and depth in '1'"),
     (units(contact_fraction="percent"), "contact_fraction is in 'percent'"),
     (units(contact_count=3.0), "contact_count is in 3.0"),
 ]
@@ -119,7 +130,7 @@ IMPOSSIBLE = [
 
 @pytest.mark.parametrize(("change", "what"), IMPOSSIBLE)
 def test_impossible_curves_are_refused(change, what):
-    curve = random_curve(elements=200, length_unit="um")
+    curve = random_curve(elements=200)
     with refused(what):
         curve_from_content(change(curve_to_content(curve)))
 

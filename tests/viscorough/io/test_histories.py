@@ -36,10 +36,13 @@ def test_named_columns_are_read_in_any_order_and_unit(history, text, encoding):
     np.testing.assert_allclose(history(text, encoding=encoding), [[0, 2], [1, 3]], rtol=1e-14)
 
 
-@pytest.mark.parametrize(("unit", "expected"), [("um", 0.5), ("nm", 500.0), ("m", 5e-7)])
-def test_depths_are_in_the_unit_of_the_indenter(tmp_path, unit, expected):
+def test_depths_are_in_metres(tmp_path):
     (tmp_path / "a.csv").write_text("time (s),depth (nm)\n0,0\n1,500\n")
-    assert read_load(tmp_path / "a.csv", "depth", unit).depth.tolist() == [0, pytest.approx(expected, rel=1e-14)]
+    assert read_load(tmp_path / "a.csv", "depth").depth.tolist() == [0, pytest.approx(5e-7, rel=1e-14)]
+    (tmp_path / "a.csv").write_text("0,0\n1,500\n")
+    columns = {"time": 1, "depth": 2}
+    for unit, expected in (("nm", 5e-7), ("1", 500.0)):
+        assert read_load(tmp_path / "a.csv", "depth", unit, columns).depth.tolist() == [0, pytest.approx(expected)]
 
 
 def test_without_a_unit_of_length_headings_have_no_units(history):
@@ -109,9 +112,7 @@ def test_columns_of_a_file_without_headings_are_chosen_by_number(history):
             history("5,0,1\n6,2,3\n", columns=columns)
     with refused("its commas may be decimal marks"):
         history("0,5,1,968\n1,5,2,75\n", columns={"time": 1, "force": 3})
-    with refused(
-        r"line 1 is a heading, with columns; name its columns time \(s\) and force \(N\), or remove the heading"
-    ):
+    with refused(r"line 1 is a heading, with argument columns; name its columns time \(s\) and force \(N\), or remove"):
         history("T°C,elapsed [s],F [N]\n20,0,1\n21,2,3\n", columns={"time": 2, "force": 3})
 
 

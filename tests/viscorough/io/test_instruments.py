@@ -17,19 +17,19 @@ pytestmark = pytest.mark.filterwarnings("ignore::viscorough.basics.errors.Accura
 
 
 @pytest.mark.parametrize(
-    ("name", "shape", "spacing", "unit"),
+    ("name", "shape", "spacing", "metres"),
     [
-        ("top-1.top", (256, 256), (600 / 256, 600 / 256), "nm"),
+        ("top-1.top", (256, 256), (600 / 256, 600 / 256), 1e-9),
     ],
 )
-def test_files_of_other_programs_are_read(name, shape, spacing, unit):
+def test_files_of_other_programs_are_read(name, shape, spacing, metres):
     reference = SurfaceTopography.read_topography(str(FILES / name))
     indenter = read_heights(FILES / name)
     assert indenter.heights.shape == shape
-    assert (indenter.spacing, indenter.row_spacing) == pytest.approx(spacing, rel=1e-12)
-    assert indenter.length_unit == unit
+    assert (indenter.spacing, indenter.row_spacing) == pytest.approx(np.multiply(spacing, metres), rel=1e-12)
+    assert indenter.length_unit == "m"
     expected = np.ma.filled(np.ma.asarray(reference.heights(), dtype=float), np.nan).T
-    np.testing.assert_allclose(indenter.heights, expected, rtol=1e-12)
+    np.testing.assert_allclose(indenter.heights, metres * expected, rtol=1e-12)
 
 
 @pytest.mark.parametrize("suffix", ["x3p", "gwy"])
@@ -85,7 +85,7 @@ def test_the_first_of_several_channels_of_an_instrument_is_read_with_a_warning(t
     path = gwyddion(
         tmp_path / "a.gwy", ("Trace", MAP, "m", "m"), ("Phase", MAP, "m", "deg"), ("Retrace", 2 * MAP, "m", "m")
     )
-    with pytest.warns(AccuracyWarning, match="the channel 'Trace' is read; channel chooses another of 'Retrace'"):
+    with pytest.warns(AccuracyWarning, match="'Trace' is read; argument channel chooses another of 'Retrace'"):
         indenter = read_heights(path)
     np.testing.assert_array_equal(indenter.heights, MAP)
     assert (indenter.spacing, indenter.row_spacing) == pytest.approx((2e-6, 3e-6))
@@ -98,9 +98,9 @@ def test_gwyddion_fields_without_units_are_refused(tmp_path):
 
 
 def test_distances_without_a_unit_need_a_spacing(tmp_path):
-    with refused("the distance between neighbouring points is not stated; spacing is needed"):
+    with refused("the distance between neighbouring points is not stated; argument spacing is needed"):
         read_heights(FILES / "unnamed.ibw", unit="nm")
-    assert read_heights(FILES / "unnamed.ibw", "20 nm", unit="um").spacing == 0.02
+    assert read_heights(FILES / "unnamed.ibw", "20 nm", unit="um").spacing == pytest.approx(2e-8)
 
 
 @pytest.mark.parametrize(("code", "kind"), [(3, "<f4"), (7, "<f8")])
@@ -109,7 +109,7 @@ def test_lowest_number_marks_missing_points(tmp_path, code, kind):
     heights[2, 3] = np.finfo(kind).min
     header = struct.pack("<8s10s12s12sHH4dBBB", b"bISO-1.0", b"", b"", b"", 7, 5, 2e-7, 3e-7, 1e-8, 1e-9, 0, code, 0)
     (tmp_path / "a.sdf").write_bytes(header + heights.tobytes())
-    indenter = read_heights(tmp_path / "a.sdf").to("m")
+    indenter = read_heights(tmp_path / "a.sdf")
     heights[2, 3] = np.nan
     np.testing.assert_allclose(indenter.heights, 1e-8 * heights, rtol=1e-6)
     assert (indenter.spacing, indenter.row_spacing) == pytest.approx((2e-7, 3e-7))
@@ -143,7 +143,7 @@ def test_digital_surf_files_of_a_surface_are_read(tmp_path):
     heights = 100 * np.arange(12) ** 2
     (tmp_path / "a.sur").write_bytes(digital_surf(heights.reshape(3, 4), 2))
     surface = read_heights(tmp_path / "a.sur")
-    np.testing.assert_allclose(surface.to("nm").heights, heights.reshape(3, 4), rtol=1e-5)
+    np.testing.assert_allclose(1e9 * surface.heights, heights.reshape(3, 4), rtol=1e-5)
     (tmp_path / "two.sur").write_bytes(2 * digital_surf(heights.reshape(3, 4), 2))
     with refused("it holds 2 objects"):
         read_heights(tmp_path / "two.sur")
@@ -160,7 +160,7 @@ def test_tiff_is_refused_with_the_line_that_makes_a_map(tmp_path, monkeypatch, b
     tifffile = pytest.importorskip("tifffile")
     monkeypatch.chdir(tmp_path)
     tifffile.imwrite("a.ome.tif", MAP, bigtiff=big)
-    with refused("TIFF is not read; spacing then states the size of its pixels") as error:
+    with refused("TIFF is not read; argument spacing then states the size of its pixels") as error:
         read_heights("a.ome.tif", "3 um")
     np.testing.assert_array_equal(made_map(error), MAP)
 

@@ -23,8 +23,8 @@ def text(delimiter, row_end="\n"):
 def test_a_matrix_with_one_delimiter_is_read(tmp_path, delimiter, row_end):
     (tmp_path / "a.txt").write_text(f"# first run{row_end}{text(delimiter, row_end)}{row_end}", newline="")
     indenter = read_heights(tmp_path / "a.txt", (0.5, 0.75), unit="um")
-    np.testing.assert_array_equal(indenter.heights, HEIGHTS)
-    assert (indenter.spacing, indenter.row_spacing, indenter.length_unit) == (0.5, 0.75, "um")
+    np.testing.assert_allclose(indenter.heights, 1e-6 * HEIGHTS, rtol=1e-14)
+    assert (indenter.spacing, indenter.row_spacing, indenter.length_unit) == (5e-7, 7.5e-7, "m")
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
@@ -96,7 +96,7 @@ GRID = np.array([[x, y, 10 * y + x] for y in (0, 2, 4) for x in (1.0, 2, 3, 4)])
         (np.column_stack([GRID, GRID[:, :1]])[:7], "may hold points or a profile"),
         (GRID.T, "may hold points or a profile"),
         (np.array([[0, 0.3, 1], [2, 0.1, 2], [4, 0.6, 3]]), "the first column rises or falls evenly"),
-        (GRID[:, :2], "a table of 12 by 2 may hold points or a profile; read_line reads a profile"),
+        (GRID[:, :2], "a table of 12 by 2 may hold points or a profile; a profile has a single column"),
         (np.column_stack([np.arange(6), np.random.default_rng(1).random((6, 6))]), "the first column rises or falls"),
         (np.column_stack([np.arange(4), np.random.default_rng(1).random((4, 6))]), "the first column rises or falls"),
         (np.vstack([-0.5 * np.arange(7), np.random.default_rng(1).random((6, 7))]), "the first row rises or falls"),
@@ -137,8 +137,9 @@ def test_a_text_with_one_row_or_column_is_a_line(tmp_path, content):
     (tmp_path / "a.txt").write_text(content.replace("nan", "3"))
     with pytest.warns(AccuracyWarning, match="Eq. 13 holds for lines whose spectrum"):
         line = read_line(tmp_path / "a.txt", "0.5 um", unit="nm")
-    assert (line.heights.tolist(), line.spacing, line.length_unit) == ([1, 2, 4, 3], 500, "nm")
-    with refused("heights have the shape .4,.; a map is needed; read_line reads lines"):
+    np.testing.assert_allclose(line.heights, [1e-9, 2e-9, 4e-9, 3e-9], rtol=1e-14)
+    assert (line.spacing, line.length_unit) == (pytest.approx(5e-7), "m")
+    with refused("heights have the shape .4,.; a map is needed; lines are for reduce"):
         read_heights(tmp_path / "a.txt", 1.0)
     (tmp_path / "b.txt").write_text(content)
     with refused("must not be nan on a line"):
@@ -150,5 +151,5 @@ def test_lines_have_one_spacing(tmp_path):
     with refused("one distance is needed for a line"):
         read_line(tmp_path / "a.npy", (1.0, 2.0))
     np.save(tmp_path / "map.npy", np.eye(4))
-    with refused("a line is needed; read_heights reads maps"):
+    with refused("a line is needed; maps are for indent"):
         read_line(tmp_path / "map.npy", 1.0)

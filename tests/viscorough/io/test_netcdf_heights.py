@@ -9,7 +9,6 @@ import xarray as xr
 
 from support.contract import refused
 from viscorough import read_heights
-from viscorough.basics import units
 from viscorough.io import netcdf
 from viscorough.io.netcdf_heights import uniform_spacing
 
@@ -33,21 +32,21 @@ def netcdf_map(path, *, unit="um", x=(0, 0.5, 1.0, 1.5), y=(3, 2, 1), x_unit="um
 
 
 @pytest.mark.parametrize(
-    ("content", "arguments", "spacings", "unit"),
+    ("content", "arguments", "spacings", "metres"),
     [
-        ({}, {}, (0.5, 1), "um"),
-        ({"dimensions": ("x", "y")}, {}, (0.5, 1), "um"),
-        ({"unit": "nm", "y": (1e-6, 2e-6, 3e-6), "y_unit": "m"}, {}, (500, 1000), "nm"),
-        ({"unit": None, "x_unit": None, "y_unit": None}, {"unit": "mm"}, (0.5, 1), "mm"),
-        ({"x": range(4), "y": range(1, 4), "x_unit": None, "y_unit": None}, {"spacing": 7}, (7, 7), "um"),
-        ({"x": range(4), "y": range(3), "x_unit": "px", "y_unit": "px"}, {"spacing": 7}, (7, 7), "um"),
-        ({"unit": "nm"}, {"spacing": (units.quantity("0.5 um"), units.quantity("1e-6 m"))}, (500, 1000), "nm"),
+        ({}, {}, (0.5, 1), 1e-6),
+        ({"dimensions": ("x", "y")}, {}, (0.5, 1), 1e-6),
+        ({"unit": "nm", "y": (1e-6, 2e-6, 3e-6), "y_unit": "m"}, {}, (500, 1000), 1e-9),
+        ({"unit": None, "x_unit": None, "y_unit": None}, {"unit": "mm"}, (0.5, 1), 1e-3),
+        ({"x": range(4), "y": range(1, 4), "x_unit": None, "y_unit": None}, {"spacing": 7}, (7, 7), 1e-6),
+        ({"x": range(4), "y": range(3), "x_unit": "px", "y_unit": "px"}, {"spacing": 7}, (7, 7), 1e-6),
+        ({"unit": "nm"}, {"spacing": ("0.5 um", "1e-6 m")}, (500, 1000), 1e-9),
     ],
 )
-def test_coordinates_of_netcdf_give_the_spacings(tmp_path, content, arguments, spacings, unit):
+def test_coordinates_of_netcdf_give_the_spacings(tmp_path, content, arguments, spacings, metres):
     indenter = read_heights(netcdf_map(tmp_path / "a.nc", **content), **arguments)
-    np.testing.assert_array_equal(indenter.heights, HEIGHTS)
-    assert (indenter.spacing, indenter.row_spacing, indenter.length_unit) == (*spacings, unit)
+    np.testing.assert_allclose(indenter.heights, metres * HEIGHTS, rtol=1e-14)
+    assert (indenter.spacing, indenter.row_spacing) == pytest.approx(np.multiply(spacings, metres), rel=1e-14)
 
 
 def test_positions_far_from_0_keep_their_precision():
@@ -69,8 +68,8 @@ def test_positions_far_from_0_keep_their_precision():
     [
         ({}, {"spacing": 0.5}, "spacing 0.5 um contradicts the file, in which rows are 1 um apart"),
         ({}, {"unit": "nm"}, "unit nm contradicts the file, in which heights are in um"),
-        ({"unit": None}, {}, "coordinates are in um, heights in no stated unit; unit"),
-        ({"x_unit": None, "y_unit": None}, {}, "coordinates in no stated unit; spacing"),
+        ({"unit": None}, {}, "coordinates are in um, heights in no stated unit; argument unit"),
+        ({"x_unit": None, "y_unit": None}, {}, "coordinates in no stated unit; argument spacing"),
         ({"x": range(4), "y": range(3), "x_unit": None, "y_unit": None}, {}, "spacing is needed"),
         ({"y_unit": None}, {}, "coordinates are in um and no unit; one unit is needed"),
         ({"y_unit": "s"}, {}, "not a unit of length"),
@@ -155,9 +154,13 @@ def test_attributes_that_the_library_would_ignore_are_refused(tmp_path, kind, at
 def test_counts_without_a_scale_are_refused(tmp_path, kind, attributes):
     """Whole numbers may be counts of a detector, whose factor is in another variable or in a manual."""
     path = stored(tmp_path / "a.nc", kind, [[1, 2], [3, 9]], **attributes)
-    with refused("its numbers are whole, without a scale, .*; scale, such as '5 nm', states the height of 1 count"):
+    with refused(
+        "its numbers are whole, without a scale, .*; argument scale, such as '5 nm', states the height of 1 count"
+    ):
         read_heights(path, 1.0)
-    assert read_heights(path, 1.0, scale=0.5).heights.tolist() == [[0.5, 1], [1.5, 4.5]]
+    metres = 1e-9 if "units" in attributes else 1
+    heights = read_heights(path, 1.0, scale=0.5).heights
+    np.testing.assert_allclose(heights, metres * np.array([[0.5, 1], [1.5, 4.5]]), rtol=1e-14)
 
 
 @pytest.mark.parametrize(("kind", "fill"), [("u1", 255), ("i1", -127)])
@@ -177,14 +180,14 @@ def test_a_depth_needs_a_direction(tmp_path, name, attributes):
     dataset = xr.open_dataset(netcdf_map(tmp_path / "a.nc")).load().rename(heights=name)
     dataset[name].attrs.update(attributes)
     dataset.to_netcdf(tmp_path / "b.nc")
-    with refused(f"variable {name} is a depth, of which larger may be lower; flip states this"):
+    with refused(f"variable {name} is a depth, of which larger may be lower; argument flip states this"):
         read_heights(tmp_path / "b.nc")
-    np.testing.assert_array_equal(read_heights(tmp_path / "b.nc", flip=True).heights, -HEIGHTS)
+    np.testing.assert_allclose(read_heights(tmp_path / "b.nc", flip=True).heights, -1e-6 * HEIGHTS)
     for positive, sign in (("up", 1), ("down", -1)):
         dataset[name].attrs["positive"] = positive
         dataset.to_netcdf(tmp_path / f"{positive}.nc")
-        np.testing.assert_array_equal(read_heights(tmp_path / f"{positive}.nc").heights, sign * HEIGHTS)
-        with refused(f"flip: the file states positive = {positive}, which is obeyed; leave it out"):
+        np.testing.assert_allclose(read_heights(tmp_path / f"{positive}.nc").heights, sign * 1e-6 * HEIGHTS)
+        with refused(f"argument flip: the file states positive = {positive}, which is obeyed; leave it out"):
             read_heights(tmp_path / f"{positive}.nc", flip=True)
 
 

@@ -19,12 +19,12 @@ def path(tmp_path):
 
 
 def test_table_is_plain_csv_with_units_in_its_header(path):
-    curve = random_curve(length_unit="um")
+    curve = random_curve()
     tables.write(curve_to_content(curve).with_attributes(heights='a "ψ"\n#.npy'), path)
     table, units = read_table(path)
     for name, values in table.items():
         np.testing.assert_array_equal(values, getattr(curve, name))
-    assert [*units.items()][:4] == [("depth", "um"), ("force", "um2"), ("stiffness", "um"), ("contact_count", "1")]
+    assert [*units.items()][:4] == [("depth", "m"), ("force", "m2"), ("stiffness", "m"), ("contact_count", "1")]
     lines = path.read_text(encoding="utf-8").splitlines()
     about = dict(line[2:].split(": ", 1) for line in lines if line.startswith("# "))
     assert json.loads(about["heights"]) == 'a "ψ"\n#.npy'

@@ -87,5 +87,5 @@ def test_values_outside_the_calibrated_range_are_refused():
             with pytest.raises(ValueError, match=rf"X of the law for H = 0.6: .* allowed: {law.x_low:.3g} to"):
                 function([1.0, x])
     for hurst in (0.05, 1.01):
-        with pytest.raises(ValueError, match=r"hurst of the penetration law: must be from 0.1 to 1"):
+        with pytest.raises(ValueError, match=r"argument hurst: must be from 0.1 to 1 for the penetration law"):
             viscorough.penetration_law(hurst)

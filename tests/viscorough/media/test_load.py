@@ -13,10 +13,8 @@ def test_a_load_has_an_integral_and_further_samples():
     more, place = load.with_times([0.5, 1.0, 2.0])
     assert more.time.tolist() == [0.0, 0.5, 1.0, 1.0, 2.0, 3.0]
     assert more.values[place].tolist() == [1.0, 1.0, 1.0]
-    assert load.in_units_of("um").values[1] == 2.0 / 1e-12
     depth = Load([0.0, 1.0], depth=[0.0, -1.0])
     assert (depth.by_depth, load.by_depth) == (True, False)
-    assert depth.in_units_of("um") == depth
 
 
 def test_times_equal_up_to_rounding_share_a_sample():

@@ -24,10 +24,10 @@ def test_spacings_and_units_out_of_range_are_refused():
     for arguments, what in (
         (((1.0, 2.0, 3.0),), "spacing: must be a positive number"),
         (("1,2",), "must be a positive number"),
-        ((np.nan,), "spacing: must be positive"),
-        (((1.0, -2.0),), "must be positive and finite, not -2"),
+        ((np.nan,), "spacing: must be a positive number"),
+        (((1.0, -2.0),), "must be a positive number, not -2"),
         ((1.0, 5.1), "differ by more than a factor of 5"),
-        ((1.0, None, 3), "length_unit: must be a text"),
+        ((1.0, None, 3), "length_unit: 3; allowed are"),
     ):
         with refused(what):
             Indenter(np.zeros((2, 2)), *arguments)
@@ -35,54 +35,29 @@ def test_spacings_and_units_out_of_range_are_refused():
         Indenter(np.zeros(3), (2.0, 3.0))
 
 
-@pytest.mark.parametrize("dtype", [float, np.float32, int])
-def test_masked_heights_are_outside_the_indenter(dtype):
-    heights = np.ma.array([[1, 2], [3, 4]], mask=[[0, 1], [0, 0]], dtype=dtype)
-    heights.data[0, 1] = 2**60  # the fill value must neither become the peak nor be refused as too large
-    indenter = Indenter(heights, 10.0, length_unit="um")
-    assert indenter.elements == 3
-    np.testing.assert_array_equal(indenter.initial_gap, [[3, np.nan], [1, 0]])
-    curve = indent(indenter, until_fraction=1)
-    assert (curve.elements, curve.length_unit) == (3, "um")
-
-
-@pytest.mark.parametrize("dtype", [np.float16, np.float32])
-def test_gaps_are_computed_in_double_precision(dtype):
-    """1 and 1 + 1e-3 are neighbours in half precision, which cannot represent 2048 - 0.001."""
-    heights = np.array([[2048, 0.001], [1, 1.001]]).astype(dtype)
-    exact = 2048 - heights.astype(float)
+def test_gaps_are_computed_in_double_precision():
+    """Single precision cannot represent 2**24 - 0.001."""
+    heights = np.array([[2.0**24, 0.001], [1, 1.001]]).astype(np.float32)
+    exact = 2.0**24 - heights.astype(float)
     np.testing.assert_array_equal(Indenter(heights, 1.0).initial_gap, exact)
     for door, given in ((indent, heights), (reduce, heights.ravel())):
         typed, double = (door(Indenter(values, 1.0), until_fraction=1) for values in (given, given.astype(float)))
-        assert typed == double
+        np.testing.assert_array_equal([typed.depth, typed.force], [double.depth, double.force])
 
 
 @pytest.mark.parametrize(
     ("heights", "what"),
     [
-        (np.array([[0, 2**53 + 1]], np.uint64), r"whole numbers must not exceed 2\*\*53"),
         (np.array([[1e308, -1e308]]), "also their differences; some are infinite"),
         (np.array([[np.longdouble("1e400"), 0]]), "some are infinite"),
         (np.zeros((2, 2, 2)), "one or two dimensions, not"),
         ([["a"]], "real numbers"),
-        (np.ma.array([[True, False]], mask=[[0, 1]]), "not bool"),
         (np.ones((0, 3)), "at least one element"),
-        (np.ma.masked_all((2, 2), int), "at least one element"),
         ([[0, -np.inf]], "finite"),
-        (np.ma.array([1.0, 2.0], mask=[0, 1]), "must not be nan on a line"),
+        ([1.0, np.nan], "must not be nan on a line"),
+        (np.ma.array([[1.0, 2.0]], mask=[[0, 1]]), "real numbers are needed"),
     ],
 )
 def test_invalid_heights_are_refused(heights, what):
     with refused(what):
         Indenter(heights, 1.0)
-
-
-def test_lengths_with_units_are_converted():
-    indenter = Indenter([[0.0, 2.0], [1.0, np.nan]], (500.0, 250.0), length_unit="nm").to("m")
-    np.testing.assert_allclose(indenter.heights, [[0, 2e-9], [1e-9, np.nan]], rtol=1e-15)
-    assert (indenter.spacing, indenter.row_spacing) == pytest.approx((5e-7, 2.5e-7), rel=1e-15)
-    assert indenter.length_unit == "m"
-    with refused("indenter: its unit of length is not known"):
-        Indenter([[1.0]], 1.0).to("m")
-    with refused("unit 's': "):
-        indenter.to("s")

@@ -23,11 +23,11 @@ def test_nodata_crop_and_flip():
     heights = ROUGH.astype("f4")
     heights[3, 4], heights[20, 30], heights[0, 0] = 1e-3 - 9999, 1e38, 77  # the first of them is rounded
     options = {"nodata": (1e-3 - 9999, 1e38), "crop": ((2, 40), (3, 25)), "flip": True}
-    surface = prepare(indenter(heights, length_unit="nm"), **options)
+    surface = prepare(indenter(heights, length_unit="m"), **options)
     expected = heights[3:25, 2:40].copy()
     expected[0, 2] = expected[17, 28] = np.nan
     np.testing.assert_array_equal(surface.heights, -expected)
-    assert (surface.spacing, surface.row_spacing, surface.length_unit) == (DX, DY, "nm")
+    assert (surface.spacing, surface.row_spacing, surface.length_unit) == (DX, DY, "m")
 
 
 def test_a_crop_reaches_the_ends_of_the_map():

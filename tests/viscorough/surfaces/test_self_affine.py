@@ -111,17 +111,17 @@ def test_invalid_options_are_refused():
     disc, line = (self_affine_disc, 33), (self_affine_line, 33)
     for generators, options, message in (
         ((disc, line), {"hurst": 1.1}, "hurst: must be from 0 to 1"),
-        ((disc, line), {"rms": 0}, "rms: must be positive"),
+        ((disc, line), {"rms": 0}, "rms: must be a positive number"),
         ((disc, line), {"roll_off_wavelength": 0.01}, "roll_off_wavelength: must leave at least one wave"),
         ((disc, line), {"roll_off_level": -1}, "roll_off_level: must be a finite number >= 0"),
         ((disc, line), {"amplitudes": "gaussian"}, "amplitudes: must be 'random' or 'fixed'"),
         ((disc, line), {"seed": None}, "seed: must be a whole number"),
         ([(self_affine_disc, 2)], {}, "elements_across: must be a whole number of at least 3"),
         ([disc], {"period": 0.5}, "period: must be at least 1"),
-        ([disc], {"diameter": -1.0}, "diameter: must be positive"),
+        ([disc], {"diameter": -1.0}, "diameter: must be a positive number"),
         ([disc], {"rms_over": "line"}, "rms_over: must be 'disc' or 'square'"),
         ([(self_affine_line, 1)], {}, "points: must be a whole number of at least 2"),
-        ([line], {"length": 0}, "length: must be positive"),
+        ([line], {"length": 0}, "length: must be a positive number"),
         ([line], {"dtype": np.float16}, "dtype: must be float32 or float64"),
         ([line], {"rms": 1e306, "dtype": float}, "rms: must be from 2.2e-305 to 1.8e.305 for float64"),
     ):

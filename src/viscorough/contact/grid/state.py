@@ -17,7 +17,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from viscorough.basics.argument_names import argument
 from viscorough.basics.errors import ConvergenceError
 from viscorough.basics.types import Array, Integers, Mask
 from viscorough.contact.border import BORDER
@@ -252,5 +251,5 @@ class GridWorkspace:
         """Return the ConvergenceError of an iteration whose residual has not fallen below its limit."""
         return ConvergenceError(
             f"contact of {contact_set.places.size} elements: the residual {residual:.1e} does not fall below "
-            f"{limit:.1e} in {self.options.max_iterations} steps; choose a larger {argument('tolerance')}"
+            f"{limit:.1e} in {self.options.max_iterations} steps; choose a larger argument tolerance"
         )

@@ -15,19 +15,18 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscorough.basics import memory
-from viscorough.basics.arrays import ReadOnlyArrays, fraction, real_numbers
+from viscorough.basics.arrays import fraction, real_numbers
 from viscorough.basics.compilation import njit
 from viscorough.basics.errors import ConvergenceError
-from viscorough.basics.interrupts import uninterrupted
 from viscorough.basics.types import Array, Integers
 from viscorough.contact.halfspace.growing_cholesky import append_element, solve_flat_punch
 from viscorough.surfaces.indenter import Indenter
 from viscorough.viscous.integration.elements import elements_of_map
 
 
-@dataclass(frozen=True)
-class Events(ReadOnlyArrays):
-    """Penetration of an indenter into a viscous half-space, event by event; read-only arrays of shape (events,).
+@dataclass(frozen=True, eq=False)
+class Events:
+    """Penetration of an indenter into a viscous half-space, event by event; arrays of shape (events,).
 
     At a contact event an element touches, and the contact set grows.
 
@@ -44,7 +43,7 @@ class Events(ReadOnlyArrays):
     elements : int
         Number of elements of the indenter.
     length_unit : str
-        Unit of the lengths, as UDUNITS spells it; "1" if it is not known.
+        "m" if numbers are in SI units, "1" if they are in consistent units that are not known.
     """
 
     impulse: np.ndarray
@@ -126,8 +125,7 @@ def newtonian_events(indenter: Indenter, *, until_fraction: float = 1.0) -> Even
     factor, members, inside = np.empty((most, most)), np.empty(most, int), np.zeros(gap.size, bool)
     impulse, depth, resistance = events = np.zeros((3, most))
     scratch = *np.zeros((3, most)), inside, gap.copy(), np.zeros(gap.size)
-    with uninterrupted():
-        tension_index = _march(elements.influence, row, column, gap, factor, members, events, *scratch)
+    tension_index = _march(elements.influence, row, column, gap, factor, members, events, *scratch)
     if tension_index >= 0:
         raise ConvergenceError(f"march: tension on element {tension_index} of the contact set; contact would open")
     with np.errstate(over="ignore"):

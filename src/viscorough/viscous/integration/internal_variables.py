@@ -17,7 +17,6 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 from scipy.special import exprel
 
-from viscorough.basics import units
 from viscorough.basics.errors import ConvergenceError
 from viscorough.basics.types import Array, Integers, Mask, Progress
 from viscorough.media.kinds import medium_of
@@ -50,7 +49,7 @@ def integrate_steps(
     Returns the Motion, and a map of the pressure p at the last time. The map has the shape of the heights, and is nan
     outside the indenter. If the force steps at the last time, this is the pressure after the step.
     """
-    relaxation, area, times, values = checked_input(indenter, medium, load)
+    relaxation, times, values = checked_input(indenter, medium, load)
     elements = elements_of_map(indenter, "march")
     rows, receding, rate = [], np.nan, 0.0
     state = _State(elements, relaxation, by_depth=load.by_depth)
@@ -77,24 +76,22 @@ def integrate_steps(
     depths, forces, counts = np.array(rows).T
     last_pressure = np.full(elements.shape, np.nan)
     last_pressure[elements.row, elements.column] = elements.units.pressure * pressure
-    moved = times, depths, forces * area, _mean_velocity(times, depths), counts / elements.count
+    moved = times, depths, forces, _mean_velocity(times, depths), counts / elements.count
     return Motion(*moved, indenter.length_unit, float(receding)), last_pressure
 
 
-def checked_input(indenter: Indenter, medium: Any, load: Load) -> "tuple[RelaxationSpectrum, float, Array, Array]":
-    """Check the arguments of `march`, and return relaxation spectrum, area, times and values of the load.
+def checked_input(indenter: Indenter, medium: Any, load: Load) -> "tuple[RelaxationSpectrum, Array, Array]":
+    """Check the arguments of `march`, and return relaxation spectrum, times and values of the load.
 
-    Forces in N are divided by the area, in m², to convert them to consistent units. Times and values have the shape
-    (times,); the values are depths, or forces in consistent units.
+    Times and values have the shape (times,); the values are depths or forces.
     """
     check_indenter("march", indenter, 2)
     if not isinstance(load, Load):
         raise TypeError(f"march: load: {type(load).__name__}; a viscorough.Load is needed, before the medium")
-    unit = indenter.length_unit
-    medium = medium_of(medium, unit)
+    medium = medium_of(medium)
     if medium.relaxation is None:
         raise ValueError(f"march: {type(medium).__name__}; allowed: media of springs and dashpots")
-    return medium.relaxation, units.square_metres(unit), load.time, load.in_units_of(unit).values
+    return medium.relaxation, load.time, load.values
 
 
 def _mean_velocity(times: Array, depths: Array) -> Array:

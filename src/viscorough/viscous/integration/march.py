@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from viscorough.basics.argument_names import argument
 from viscorough.basics.errors import ConvergenceError
 from viscorough.basics.types import Progress
 from viscorough.media.load import Load
@@ -18,7 +17,7 @@ METHODS = ("implicit", "events")
 def march(
     indenter: Indenter,
     load: Load,
-    medium: Medium | float | str,
+    medium: Medium | float,
     *,
     method: str = "implicit",
     until_fraction: float = 1.0,
@@ -36,7 +35,7 @@ def march(
     load : Load
         Depth [length] or force [N] over time [s], linear between samples. It may decrease. In a medium with a parallel
         dashpot (Newtonian, Kelvin-Voigt), a step of the depth must not press on the surface.
-    medium : Medium or float or str
+    medium : Medium or float
         Springs and dashpots (no Springpot), or the viscosity of a Newtonian medium [Pa s].
     method : {"implicit", "events"}, optional
         "implicit" solves one contact problem in each step, from one sample of the load to the next, for the pressures
@@ -81,31 +80,29 @@ def march(
     return integrate_steps(indenter, medium, load, progress)[0]
 
 
-def _integrate_events(
-    indenter: Indenter, medium: Medium | float | str, load: Load, until_fraction: float = 1.0
-) -> Motion:
+def _integrate_events(indenter: Indenter, medium: Medium | float, load: Load, until_fraction: float = 1.0) -> Motion:
     """Integrate the contact in a Newtonian medium under a force, exactly from contact event to contact event.
 
     until_fraction : contact fraction up to which events are followed
 
     Raises ConvergenceError if more elements touch than `until_fraction` allows.
     """
-    relaxation, area, times, force = checked_input(indenter, medium, load)
+    relaxation, times, force = checked_input(indenter, medium, load)
     if load.by_depth or not relaxation.viscosity or relaxation.relaxed_modulus:
         found = "load of a depth" if load.by_depth else "a medium that is not Newtonian"
         raise ValueError(
-            f"march: {argument('method', 'events')}, {found}; allowed: a force on a Newtonian medium, or "
-            f"{argument('method', 'implicit')}"
+            f"march: argument method='events', {found}; allowed: a force on a Newtonian medium, or "
+            f"argument method='implicit'"
         )
-    impulse = load.in_units_of(indenter.length_unit).integral / relaxation.viscosity
+    impulse = load.integral / relaxation.viscosity
     check_overflow(impulse)
     events = newtonian_events(indenter, until_fraction=until_fraction)
     if impulse[-1] > events.impulse[-1] and events.contact_count[-1] < events.elements:
         raise ConvergenceError(
             f"march: {events.contact_count[-1]} elements touch before time {times[-1]:.6g}; a larger "
-            f"{argument('until_fraction')} is needed"
+            f"argument until_fraction is needed"
         )
     last_event = events.event_at(impulse)
     fraction = np.where(impulse > 0, events.contact_count[last_event], 0) / events.elements
     velocity = force / (relaxation.viscosity * events.resistance[last_event])
-    return Motion(times, events.depth_at(impulse), force * area, velocity, fraction, indenter.length_unit)
+    return Motion(times, events.depth_at(impulse), force, velocity, fraction, indenter.length_unit)

@@ -53,3 +53,14 @@ def test_events_end_at_the_force_and_ties_are_one_event():
     events, last, _ = solver.follow_events(four, 9, np.inf)
     assert events.count.tolist() == [8, 9]  # the four sides touch at once
     assert last.count == 9
+
+
+def test_invalid_options_are_refused():
+    for wrong, message in (
+        ({"precision": "half"}, "precision: must be one of single, double, not 'half'"),
+        ({"operator_rounding": -1.0}, "operator_rounding: must not be negative"),
+        ({"operator_rounding": np.nan}, "operator_rounding: nan; a finite number is needed"),
+        ({"max_iterations": 0}, "max_iterations: must be a whole number of at least 1"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            SolverOptions(**wrong)

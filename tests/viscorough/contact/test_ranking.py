@@ -25,12 +25,9 @@ def islands():
 
 
 MAPS = {
-    "rough": (HEIGHTS, 1.0),
     "rough, rectangular elements": (HEIGHTS, (1.0, 1.7)),
     "hole": (np.where(np.hypot(ROW - 90, COLUMN - 110) < 60, np.nan, HEIGHTS), 1.0),
-    "strip": (HEIGHTS[80:83], 1.0),
     "islands": (islands(), 1.0),
-    "terraces": (np.floor(3 * HEIGHTS) / 3, 1.0),
     "in a corner of a larger map": (np.pad(HEIGHTS[:60, :50], ((0, 90), (70, 0)), constant_values=np.nan), 1.0),
 }
 

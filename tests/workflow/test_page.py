@@ -14,7 +14,7 @@ from support.page import BROWSER, Page, number_in, opened
 from support.workflow import ROOT, TABLES, TEST, merged, read_settings, snakemake
 from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.page.content import as_yaml
-from viscorough_study.run.settings import changed_settings
+from viscorough_study.run.settings import changed_settings, check_settings
 from viscorough_study.run.tables import read_table, split_table, write_table
 from viscorough_study.verdicts.claims import counted_verdicts, verdicts_of
 
@@ -70,9 +70,9 @@ def test_code_on_the_page_runs(html, tmp_path, monkeypatch):
 
 def test_page_names_the_settings_file_and_every_setting_that_it_changes(html):
     assert "<code>.venv/bin/snakemake --cores 2 --configfile config/test.yaml</code>" in html
-    for name, values in changed_settings(
-        read_settings("config"), merged(read_settings("config"), read_settings("test"))
-    ).items():
+    default = read_settings("config")
+    settings = check_settings(merged(default, read_settings("test")))
+    for name, values in changed_settings(check_settings(default), settings).items():
         row = html.split(f"<code>{name}</code></th>")[1].split("</tr>")[0]
         assert [unescape(cell)[:50] for cell in re.findall("<td>(.*?)</td>", row)] == [
             as_yaml(value)[:50] for value in values

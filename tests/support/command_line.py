@@ -26,12 +26,13 @@ def run(line):
 
 def values(path):
     """Return {name: values} of the variables in a NetCDF file."""
-    return {name: variable.values for name, variable in netcdf.read(path).variables.items()}
+    return {name: each for name, (_, each, _) in netcdf.read(path)[0].items()}
 
 
 def save_in(unit, result, path):
     """Write a result of the library, whose lengths are in metres, with lengths in another unit, as commands do."""
-    netcdf.write(with_lengths_in(to_content(result), unit), path)
+    variables, attributes = to_content(result)
+    netcdf.write(path, with_lengths_in(variables, unit), attributes)
 
 
 def python(*arguments, **environment):

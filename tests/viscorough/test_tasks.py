@@ -13,7 +13,7 @@ from support.command_line import run
 from support.contract import refused
 from support.tables import read_table
 from viscorough.basics.errors import AccuracyWarning
-from viscorough.io import netcdf
+from viscorough.io.datasets import read_dataset
 
 RADIUS, SPACING, POINTS = 1e-4, 5e-7, 41  # m
 YOUNG, FORCE = 2e6, 1e-5  # Pa, N
@@ -55,10 +55,10 @@ def test_tasks_give_the_numbers_of_hertz(here, capsys):
 
     assert run(f"contact {scan} --force '10 uN' --young '2 MPa' -o fields.nc") == 0
     assert f"F {FORCE:g} N, largest p " in capsys.readouterr().out
-    fields = netcdf.read("fields.nc").variables
+    fields = read_dataset("fields.nc").variables
     assert float(fields["normal_force"].values) == pytest.approx(1e-5, rel=1e-12)
-    assert fields["normal_force"].attributes["units"] == "N"
-    assert fields["largest_normal_pressure"].attributes["units"] == "Pa"
+    assert fields["normal_force"].attrs["units"] == "N"
+    assert fields["largest_normal_pressure"].attrs["units"] == "Pa"
     assert float(fields["largest_normal_pressure"].values) == pytest.approx(LARGEST_PRESSURE, rel=0.03)
     assert np.nansum(fields["normal_pressure"].values) * SPACING**2 == pytest.approx(FORCE, rel=1e-5)
 

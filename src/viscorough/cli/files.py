@@ -15,7 +15,7 @@ from viscorough.basics.units import Quantity
 from viscorough.cli import messages
 
 if TYPE_CHECKING:
-    from viscorough.io.netcdf import Content
+    from viscorough.io.netcdf import Content, Variables
 
 
 def check_output(output: Path, **inputs: Path | None) -> None:
@@ -71,27 +71,23 @@ def check_opens(path: Path, content: bytes | None = None) -> None:
         timer.cancel()
 
 
-def read_content(path: Path) -> Content:
-    """Check that a NetCDF file can be opened, and return its Content (see io.netcdf)."""
-    from viscorough.io import netcdf
-
-    check_opens(path)
-    return netcdf.read(path)
-
-
 def read_curve(path: Path) -> tuple[viscorough.LoadingCurve, str]:
     """Return the loading curve in a file, and the unit of its lengths in the file.
 
     Raises ValueError for a file without a loading curve, and for the curve of a compressible half-space: the kinetics
     of a viscous half-space follow only from the elastic curve of an incompressible half-space.
     """
+    from viscorough.io import netcdf
+    from viscorough.io.atomic import path_named
     from viscorough.io.curves import curve_from_content, length_unit_of
 
-    content = read_content(path)
-    if (ratio := content.attributes.get("poisson_ratio", 0.5)) != 0.5:
+    check_opens(path)
+    content = netcdf.read(path)
+    if (ratio := content[1].get("poisson_ratio", 0.5)) != 0.5:
         text = f"{path}: the curve is that of a half-space with Poisson ratio {ratio}"
         raise ValueError(f"{text}; kinetics need one of an incompressible half-space, 0.5")
-    return curve_from_content(content), length_unit_of(content)
+    with path_named(path):
+        return curve_from_content(content), length_unit_of(content)
 
 
 def load_from_options(
@@ -130,7 +126,7 @@ def read_half_space(viscosity: Quantity | None, medium: Path | None, length_unit
 
 
 def write_output(content: Content, output: Path, unit: str, /, **attributes: Any) -> None:
-    """Write a Content with further attributes: as a table if the name ends in .csv, otherwise as a NetCDF file.
+    """Write variables and attributes as a table if the name ends in .csv, otherwise as a NetCDF file.
 
     unit : unit of the lengths in the file, which is the unit of the user's surface
 
@@ -140,22 +136,22 @@ def write_output(content: Content, output: Path, unit: str, /, **attributes: Any
 
     if texts := messages.warning_texts(click.get_current_context().obj):
         attributes["warnings"] = "; ".join(texts)
-    write_content(with_lengths_in(content, unit).with_attributes(**attributes), output)
+    variables, about = content
+    write_content((with_lengths_in(variables, unit), about | attributes), output)
 
 
-def with_lengths_in(content: Content, length_unit: str) -> Content:
-    """Return a Content in SI units with its lengths in another unit of length."""
+def with_lengths_in(variables: Variables, length_unit: str) -> dict[str, Any]:
+    """Return variables in SI units with their lengths in another unit of length."""
     if length_unit in ("m", units.UNKNOWN):
-        return content
-    variables = {}
-    for name, variable in content.variables.items():
-        unit = variable.attributes.get("units")
+        return dict(variables)
+    converted = {}
+    for name, (dimensions, values, about) in variables.items():
+        unit = about.get("units")
         if unit in _POWERS_OF_LENGTH:
-            values = in_unit(variable.values, length_unit, _POWERS_OF_LENGTH[unit])
-            attributes = variable.attributes | {"units": unit.replace("m", length_unit, 1)}
-            variable = variable._replace(values=values, attributes=attributes)
-        variables[name] = variable
-    return content._replace(variables=variables)
+            values = in_unit(values, length_unit, _POWERS_OF_LENGTH[unit])
+            about = about | {"units": unit.replace("m", length_unit, 1)}
+        converted[name] = dimensions, values, about
+    return converted
 
 
 # SI units of the variables that are converted to the unit of the user's surface: {unit: power of the length}.

@@ -91,7 +91,7 @@ def indent(
         curve = viscorough.indent(indenter, **_arguments(settings), progress=report, threads=threads)
     attributes = heights.attributes(indenter, unit) | elastic_constants
     files.write_output(curve_to_content(curve, modulus), output, unit, **attributes)
-    lines = [_last_level(curve, indenter, unit, modulus), curve.grid_error_text]
+    lines = [_last_level(curve, indenter, modulus), curve.grid_error_text]
     messages.announce(output, "\n".join(filter(None, lines)))
 
 
@@ -122,9 +122,9 @@ def _arguments(settings: dict[str, Any]) -> dict[str, Any]:
     return given | {"until_fraction": fraction}
 
 
-def _last_level(curve: viscorough.LoadingCurve, indenter: viscorough.Indenter, unit: str, modulus: float | None) -> str:
+def _last_level(curve: viscorough.LoadingCurve, indenter: viscorough.Indenter, modulus: float | None) -> str:
     """Return a text for the closing line: the number of levels, and the results at the last level."""
-    depth = with_unit(files.in_unit(curve.depth[-1], unit), unit, 6)
+    depth = with_unit(curve.depth[-1], curve.length_unit, 6)
     text = f"{curve.depth.size} levels, the last at depth {depth}"
     if modulus is not None:
         from viscorough.io.contact_tables import result_units

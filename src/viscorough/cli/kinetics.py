@@ -104,7 +104,7 @@ def kinetics(
         messages.warn(f"{text}of the curve, or where a step in a springpot has no bound")
     content = motion_to_content(motion)
     files.write_output(content, output, unit, **about, **load_attributes, correspondence=_CORRESPONDENCE)
-    depth = f"depth {with_unit(files.in_unit(motion.depth[-1], unit), unit, 6)}"
+    depth = f"depth {with_unit(motion.depth[-1], motion.length_unit, 6)}"
     if depth_history is not None:
         depth += f" and force {with_unit(motion.force[-1], si_unit('N', unit), 6)}"
     time = with_unit(motion.time[-1], si_unit("s", unit), 6)

@@ -86,7 +86,7 @@ def march(
     about |= load_attributes | heights.attributes(indenter, unit)
     files.write_output(content, output, unit, method=method, **about)
     depth, last = (
-        with_unit(files.in_unit(motion.depth[-1], unit), unit, 6),
+        with_unit(motion.depth[-1], motion.length_unit, 6),
         with_unit(motion.time[-1], si_unit("s", unit), 6),
     )
     contact = f"{round(motion.contact_fraction[-1] * indenter.elements)} of {indenter.elements} elements in contact"

@@ -83,6 +83,6 @@ def reduce(
     content = curve_to_content(first) if len(curves) == 1 else stack_curves(curves)
     files.write_output(content, output, unit, **about)
     several = f"{len(curves)} curves, the first with " if len(curves) > 1 else ""
-    depth = with_unit(files.in_unit(first.depth[-1], unit), unit, 6)
+    depth = with_unit(first.depth[-1], first.length_unit, 6)
     count = f"{first.contact_count[-1]} of {first.elements} points in contact"
     messages.announce(output, f"{several}{first.depth.size} levels, the last at depth {depth} with {count}")

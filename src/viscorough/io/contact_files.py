@@ -7,8 +7,9 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from viscorough.basics.types import Array
-from viscorough.io.curves import OVER_LEVELS, WITH_MODULUS
-from viscorough.io.netcdf import Content, Quantities, Variable, axes_of, described, padded
+from viscorough.io.curves import OVER_LEVELS, WITH_MODULUS, described, padded
+from viscorough.io.heights import positions_of
+from viscorough.io.netcdf import Content
 from viscorough.results.contact_maps import Contact
 
 COMMENT = (
@@ -18,20 +19,19 @@ COMMENT = (
     "of an element is the sum of sqrt(dx dy)/(4 pi) K pressure, K Love's influence coefficients. In contact, the gap "
     "is zero within residual times depth. Patches are regions in contact that are connected by sides of elements."
 )
-# Maps of a contact: {name: (long_name, n)}. The unit of a map is the unit of length to the power n.
+# Maps of a contact: {name: (long_name, SI unit)}.
 MAPS = {
-    "pressure": ("pressure over shear modulus p/G", 0),
-    "gap": ("gap between the deformed surface and the indenter", 1),
-    "contact": ("whether an element is in contact", 0),
+    "pressure": ("pressure over shear modulus p/G", "1"),
+    "gap": ("gap between the deformed surface and the indenter", "m"),
+    "contact": ("whether an element is in contact", "1"),
 }
-# Variables with a single number for each contact: {name: (long_name, n)}. The unit of a variable is the unit of length
-# to the power n.
+# Variables with a single number for each contact: {name: (long_name, SI unit)}.
 NUMBERS = {
     **{name: OVER_LEVELS[name] for name in ("depth", "force", "stiffness", "contact_fraction")},
-    "contact_area": ("area of the elements in contact", 2),
-    "corrected_contact_area": ("contact area less what elements at its edge add", 2),
-    "mean_pressure": ("mean pressure in contact over shear modulus", 0),
-    "largest_pressure": ("largest pressure over shear modulus", 0),
+    "contact_area": ("area of the elements in contact", "m2"),
+    "corrected_contact_area": ("contact area less what elements at its edge add", "m2"),
+    "mean_pressure": ("mean pressure in contact over shear modulus", "1"),
+    "largest_pressure": ("largest pressure over shear modulus", "1"),
     "residual": OVER_LEVELS["residual"],
 }
 # Additional variables with a single number for each contact, if the shear modulus is given: {name: (long_name, unit)}.
@@ -42,7 +42,7 @@ NUMBERS_WITH_MODULUS = {
 }
 # Additional map of a contact, if the shear modulus is given: {name: (long_name, unit)}.
 _MAP_WITH_MODULUS = {"normal_pressure": ("normal pressure p", "Pa")}
-PATCHES = {"patches": ("number of patches of contact", 0), "patch_area": ("area of a patch", 2)}
+PATCHES = {"patches": ("number of patches of contact", "1"), "patch_area": ("area of a patch", "m2")}
 # Store maps in single precision if the tolerance is at least this: the solver then uses single precision, too.
 _SINGLE_FROM = 1e-4
 # Store maps in single precision only if their numbers are in this range. Single precision reaches from 1e-38 to 3e38.
@@ -67,21 +67,19 @@ def contacts_to_content(
     first = contacts[0]
     unit, level = first.length_unit, ("level",) if len(contacts) > 1 else ()
 
-    def add(dimensions: tuple[str, ...], quantities: Quantities, **values: Sequence[Any]) -> None:
-        stacked = {name: np.stack(each) if level else np.asarray(each[0]) for name, each in values.items()}
-        variables.update(described((*level, *dimensions), stacked, quantities, unit))
+    variables = positions_of(first, first.gap.shape)
 
-    spacings, stated = (
-        {"y": first.row_spacing, "x": first.spacing},
-        {"y": first.row_positions, "x": first.column_positions},
-    )
-    variables = axes_of(first.gap.shape, spacings, unit, stated)
+    def add(dimensions: tuple[str, ...], quantities: dict[str, tuple[str, str]], **values: Sequence[Any]) -> None:
+        for name, each in values.items():
+            stacked = np.stack(each) if level else np.asarray(each[0])
+            variables[name] = (*level, *dimensions), stacked, described(*quantities[name], unit)
+
     if heights is not None:
-        variables["heights"] = Variable(("y", "x"), heights, {"long_name": "height", "units": unit})
+        variables["heights"] = ("y", "x"), heights, {"long_name": "height", "units": unit}
     kinds = dict.fromkeys(MAPS, _kind_of_maps(contacts)) | {"contact": np.int8}
     maps = {name: [getattr(contact, name).astype(kind) for contact in contacts] for name, kind in kinds.items()}
     add(("y", "x"), MAPS, **maps)
-    variables["contact"].attributes.update(flag_values=np.array([0, 1], np.int8), flag_meanings="apart in_contact")
+    variables["contact"][2].update(flag_values=np.array([0, 1], np.int8), flag_meanings="apart in_contact")
     add((), NUMBERS, **{name: [getattr(contact, name) for contact in contacts] for name in NUMBERS})
     if shear_modulus is not None:
         named = {"normal_force": "force", "normal_stiffness": "stiffness"}
@@ -93,7 +91,7 @@ def contacts_to_content(
     add((), PATCHES, patches=[len(patch_areas) for patch_areas in areas])
     add(("patch",), PATCHES, patch_area=list(padded(areas)))
     about = {"title": "Contact of a rigid indenter with an elastic half-space", "comment": COMMENT}
-    return Content(variables, about | {"tolerance": first.tolerance, "spacing": [first.spacing, first.row_spacing]})
+    return variables, about | {"tolerance": first.tolerance, "spacing": [first.spacing, first.row_spacing]}
 
 
 def _kind_of_maps(contacts: Sequence[Contact]) -> DTypeLike:

@@ -13,7 +13,7 @@ from viscorough.basics import summaries
 from viscorough.basics.types import Array
 from viscorough.io.contact_files import NUMBERS, NUMBERS_WITH_MODULUS, PATCHES
 from viscorough.io.curves import ABOUT_GRID, OVER_LEVELS
-from viscorough.io.netcdf import Content, Variable
+from viscorough.io.netcdf import Content
 from viscorough.results.contact_maps import Contact
 
 # Quantities in tables: {quantity: key under which result_units gives its unit; None for counts and shares}.
@@ -146,8 +146,8 @@ def text_of_row(row: Row, stated: dict[str, str]) -> str:
 def contact_table(contacts: Sequence[Contact], shear_modulus: float | None = None) -> Content:
     """Convert contacts of one indenter to the content of a table with one row for each contact."""
     rows, stated = rows_of_contacts(contacts, shear_modulus)
-    variables = {}
+    variables: dict[str, Any] = {}
     for name, unit in stated.items():
         values: Array = np.array([row[name] for row in rows])
-        variables[name] = Variable(("row",), values, {"long_name": MEANINGS[name], "units": unit})
-    return Content(variables, {"title": "Contacts of a rigid indenter with an elastic half-space"})
+        variables[name] = ("row",), values, {"long_name": MEANINGS[name], "units": unit}
+    return variables, {"title": "Contacts of a rigid indenter with an elastic half-space"}

@@ -9,8 +9,8 @@ import numpy as np
 
 from viscorough.basics import units
 from viscorough.basics.summaries import unit_power
-from viscorough.io.atomic import path_named
-from viscorough.io.netcdf import Content, Variable, described, padded
+from viscorough.basics.types import Array
+from viscorough.io.netcdf import Content
 from viscorough.results.loading_curve import LoadingCurve
 
 COMMENT = (
@@ -23,25 +23,25 @@ _ROUNDING = 1e-6
 # From one level to the next, contact count and stiffness may decrease by at most this multiple of the tolerance. Errors
 # of the solver can cause decreases between close levels, up to about the tolerance.
 _LOST = 10
-# Variables of a curve with one value for each level: {name: (long_name, n)}. The unit of a variable is the unit of
-# length to the power n.
-OVER_LEVELS: dict[str, tuple[str, int]] = {
-    "depth": ("depth of indentation u", 1),
-    "force": ("normal force over shear modulus F/G", 2),
-    "stiffness": ("tangent stiffness over shear modulus k/G", 1),
-    "contact_count": ("number of elements in contact", 0),
-    "contact_fraction": ("share of the indenter's elements in contact", 0),
-    "residual": ("largest gap in contact or overlap outside it that remains, over depth", 0),
+# Variables of a curve with one value for each level: {name: (long_name, SI unit)}.
+OVER_LEVELS: dict[str, tuple[str, str]] = {
+    "depth": ("depth of indentation u", "m"),
+    "force": ("normal force over shear modulus F/G", "m2"),
+    "stiffness": ("tangent stiffness over shear modulus k/G", "m"),
+    "contact_count": ("number of elements in contact", "1"),
+    "contact_fraction": ("share of the indenter's elements in contact", "1"),
+    "residual": ("largest gap in contact or overlap outside it that remains, over depth", "1"),
 }
-# Additional variables of a curve with estimated grid errors: {name: (long_name, n)}. The unit of a variable is the unit
-# of length to the power n.
-ABOUT_GRID: dict[str, tuple[str, int]] = {
-    "grid_error": ("estimated relative error of the velocity due to the spacing of the map", 0),
-    "force_grid_error": ("estimated relative error of the force at a depth due to the spacing of the map", 0),
-    "area_change": ("relative change of the contact area when the spacing of the map is halved", 0),
+# Additional variables of a curve with estimated grid errors: {name: (long_name, SI unit)}.
+ABOUT_GRID = {
+    "grid_error": ("estimated relative error of the velocity due to the spacing of the map", "1"),
+    "force_grid_error": ("estimated relative error of the force at a depth due to the spacing of the map", "1"),
+    "area_change": ("relative change of the contact area when the spacing of the map is halved", "1"),
 }
-# Additional variables of a curve or contact, if the shear modulus is given: {name: (long_name, unit)}.
+# Additional variables of a curve or contact, if the shear modulus is given: {name: (long_name, SI unit)}.
 WITH_MODULUS = {"normal_force": ("normal force F", "N"), "normal_stiffness": ("normal stiffness k = dF/du", "N m-1")}
+# {SI unit: power of the length}
+_POWERS = {"1": 0, "m": 1, "m2": 2}
 # Variables that are fields of LoadingCurve. The contact fraction is no field: it follows from the contact count.
 STORED = [name for name in OVER_LEVELS if name != "contact_fraction"]
 # Global attributes of every curve: {name: (type, long_name)}.
@@ -74,35 +74,41 @@ def curve_to_content(curve: LoadingCurve, shear_modulus: float | None = None) ->
     attributes |= {name: getattr(curve, name) for name in PER_CURVE}
     defaults = {field.name: field.default for field in dataclasses.fields(curve)}
     attributes |= {name: getattr(curve, name) for name in OPTIONAL if getattr(curve, name) != defaults[name]}
-    quantities: dict[str, Any] = {**OVER_LEVELS, **ABOUT_GRID, **WITH_MODULUS}
-    return Content(described(("level",), values, quantities, unit), attributes)
+    quantities = OVER_LEVELS | ABOUT_GRID | WITH_MODULUS
+    return {name: (("level",), each, described(*quantities[name], unit)) for name, each in values.items()}, attributes
+
+
+def described(long_name: str, unit: str, length_unit: str) -> dict[str, str]:
+    """Return the attributes long_name and units of a variable.
+
+    unit : SI unit. If `length_unit` is "1", lengths and forces have no known unit, and only times keep their unit
+    """
+    if length_unit == "1":
+        unit = {"s": "s", "m s-1": "s-1"}.get(unit, "1")
+    return {"long_name": long_name, "units": unit}
 
 
 def curve_from_content(content: Content) -> LoadingCurve:
     """Convert the content of a NetCDF file, made by curve_to_content, to a LoadingCurve with lengths in metres.
 
-    Raises ValueError, which names the file, if the content holds no curve, if the units of other variables contradict
-    the unit of the depth, and if the numbers contradict each other by more than the tolerance of the curve.
+    Raises ValueError if the content holds no curve, if the units of other variables contradict the unit of the depth,
+    and if the numbers contradict each other by more than the tolerance of the curve.
     """
-    with contextlib.nullcontext() if content.path is None else path_named(content.path):
-        return _checked_curve(content)
-
-
-def _checked_curve(content: Content) -> LoadingCurve:
+    variables, attributes = content
     fields: dict[str, Any] = {}
-    optional = [name for name in ("contact_fraction", *ABOUT_GRID) if name in content.variables]
+    optional = [name for name in ("contact_fraction", *ABOUT_GRID) if name in variables]
     for name in [*STORED, *optional]:
-        variable = content.variables.get(name)
-        if variable is None or variable.dimensions != ("level",) or variable.values.dtype.kind not in "iuf":
+        dimensions, values, _ = variables.get(name, ((), np.zeros(0), {}))
+        if dimensions != ("level",) or values.dtype.kind not in "iuf":
             raise ValueError(f"no numbers {name}(level); {_NEEDED}")
-        fields[name] = variable.values
+        fields[name] = values
     for name, (convert, _) in PER_CURVE.items():
-        if name not in content.attributes:
+        if name not in attributes:
             raise ValueError(f"no attribute {name}; {_NEEDED}")
-        fields[name] = _converted(name, content.attributes[name], convert)
+        fields[name] = _converted(name, attributes[name], convert)
     for name, convert in OPTIONAL.items():
-        if name in content.attributes:
-            fields[name] = _converted(name, content.attributes[name], convert, least=OPTIONAL_LEAST.get(name, 0.0))
+        if name in attributes:
+            fields[name] = _converted(name, attributes[name], convert, least=OPTIONAL_LEAST.get(name, 0.0))
     # Another program may have stored counts as floats.
     with np.errstate(invalid="ignore"):
         count = fields["contact_count"].astype(int)
@@ -113,7 +119,7 @@ def _checked_curve(content: Content) -> LoadingCurve:
     if unit not in ("m", units.UNKNOWN):
         metres = units.metres(unit)
         for name in ("depth", "force", "stiffness"):
-            fields[name] = fields[name] * metres ** OVER_LEVELS[name][1]
+            fields[name] = fields[name] * metres ** _POWERS[OVER_LEVELS[name][1]]
     curve = LoadingCurve(**fields, length_unit=units.UNKNOWN if unit == units.UNKNOWN else "m")
     _check_contact(curve)
     if fraction is not None and not np.allclose(fraction, curve.contact_fraction, rtol=_ROUNDING, atol=0):
@@ -122,19 +128,20 @@ def _checked_curve(content: Content) -> LoadingCurve:
 
 
 def length_unit_of(content: Content) -> str:
-    """Return the unit of the depth; "1" if the Content states no unit for it.
+    """Return the unit of the depth; "1" if the content of a file states no unit for it.
 
     Raises ValueError if the unit of another variable is not the required power of the unit of the depth.
     """
-    stated = {name: variable.attributes.get("units", units.UNKNOWN) for name, variable in content.variables.items()}
+    variables, attributes = content
+    stated = {name: about.get("units", units.UNKNOWN) for name, (_, _, about) in variables.items()}
     length = stated["depth"]
     if length != units.UNKNOWN:
         units.metres(str(length))  # raises ValueError unless this is a unit of length
-    for name, (_, power) in (OVER_LEVELS | ABOUT_GRID).items():
-        needed = unit_power(length, power)
+    for name, (_, unit) in (OVER_LEVELS | ABOUT_GRID).items():
+        needed = unit_power(length, _POWERS[unit])
         if stated.get(name, needed) != needed:
             raise ValueError(f"{name} is in {stated[name]!r} and depth in {length!r}; {needed!r} is needed for {name}")
-    if (attribute := content.attributes.get("length_unit", length)) != length:
+    if (attribute := attributes.get("length_unit", length)) != length:
         raise ValueError(f"depth is in {length!r} and the attribute length_unit is {attribute!r}; one unit is needed")
     return str(length)
 
@@ -196,12 +203,22 @@ def stack_curves(curves: Sequence[LoadingCurve]) -> Content:
     if others:
         raise ValueError(f"curves: lengths are in {length_unit} and {others[0]}; one unit is allowed")
     levels = np.array([curve.depth.size for curve in curves])
-    over_levels = {name: padded([getattr(curve, name) for curve in curves]) for name in OVER_LEVELS}
-    variables = described(("realization", "level"), over_levels, OVER_LEVELS, length_unit)
+    variables: dict[str, Any] = {}
+    for name, quantity in OVER_LEVELS.items():
+        rows = padded([getattr(curve, name) for curve in curves])
+        variables[name] = ("realization", "level"), rows, described(*quantity, length_unit)
     attributes = {"long_name": "number of levels of the curve", "units": "1"}
-    variables["levels"] = Variable(("realization",), levels, attributes)
+    variables["levels"] = ("realization",), levels, attributes
     for name, (kind, long_name) in PER_CURVE.items():
         values: Any = np.array([getattr(curve, name) for curve in curves], dtype=object if kind is str else kind)
         attributes = {"long_name": long_name} | ({} if kind is str else {"units": "1"})
-        variables[name] = Variable(("realization",), values, attributes)
-    return Content(variables, {"title": "Loading curves of rigid indenters", "comment": COMMENT})
+        variables[name] = ("realization",), values, attributes
+    return variables, {"title": "Loading curves of rigid indenters", "comment": COMMENT}
+
+
+def padded(rows: Sequence[Array]) -> Array:
+    """Combine rows of numbers into one array, with nan beyond the ends of shorter rows."""
+    table = np.full((len(rows), max(map(len, rows))), np.nan)
+    for whole, row in zip(table, rows, strict=True):
+        whole[: len(row)] = row
+    return table

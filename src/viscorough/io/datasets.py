@@ -1,7 +1,7 @@
 """Convert the content of NetCDF files to datasets of xarray and back, and read and write datasets.
 
 Only this module and `result_datasets` import xarray. Its import takes about as long as the contact of a small map, so
-that commands and jobs which need no labelled arithmetic use `netcdf.Content`.
+that commands and jobs which need no labelled arithmetic use `io.netcdf`.
 """
 
 import xarray as xr
@@ -15,10 +15,8 @@ def content_to_dataset(content: netcdf.Content) -> xr.Dataset:
 
     A variable becomes a coordinate if its only dimension has the name of the variable.
     """
-    along = {name for name, variable in content.variables.items() if variable.dimensions == (name,)}
-    data = {name: variable for name, variable in content.variables.items() if name not in along}
-    coordinates = {name: content.variables[name] for name in along}
-    return xr.Dataset(data, coordinates, attrs=content.attributes | netcdf.global_attributes())
+    variables, attributes = content
+    return xr.Dataset(variables, attrs=attributes | netcdf.global_attributes())
 
 
 def write_dataset(ds: xr.Dataset, path: FilePath) -> None:
@@ -29,8 +27,8 @@ def write_dataset(ds: xr.Dataset, path: FilePath) -> None:
     """
     labels = {name: f"{name}_index" for name in ds.indexes if ds[name].dtype.kind not in "biuf"}
     ds = ds.reset_index(list(labels)).rename_dims(labels)
-    variables = {str(name): netcdf.Variable(v.dims, v.values, v.attrs) for name, v in ds.variables.items()}
-    netcdf.write(netcdf.Content(variables, ds.attrs), path)
+    variables = {str(name): (v.dims, v.values, v.attrs) for name, v in ds.variables.items()}
+    netcdf.write(path, variables, ds.attrs)  # type: ignore[arg-type]  # names of dimensions are texts
 
 
 def read_dataset(path: FilePath) -> xr.Dataset:

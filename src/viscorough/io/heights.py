@@ -17,6 +17,7 @@ from viscorough.io.atomic import path_named, reading
 from viscorough.io.instruments import read_instrument
 from viscorough.io.netcdf_heights import read_netcdf
 from viscorough.io.scan import Distance, Scan, in_metres, to_indenter
+from viscorough.results.contact_maps import Contact
 from viscorough.surfaces.indenter import Indenter
 from viscorough.surfaces.preparation import doubts, prepare
 
@@ -226,13 +227,26 @@ def _doubts_about_numbers(scan: Scan, indenter: Indenter, unit: str) -> list[str
 
 
 def surface_to_content(indenter: Indenter) -> netcdf.Content:
-    """Convert an Indenter to the content of a NetCDF file: heights with the dimensions (y, x), or (x) for a line.
+    """Convert an Indenter to the content of a NetCDF file: heights with the dimensions (y, x), or (x) for a line."""
+    variables = positions_of(indenter, indenter.heights.shape)
+    about = {"long_name": "height", "units": indenter.length_unit}
+    heights = {"heights": (tuple(variables), indenter.heights, about)}
+    return heights | variables, {"title": "Heights of a rigid indenter; larger is higher and touches first"}
 
-    The coordinates y and x are those of the indenter, or 0 at the centre of the map or line.
+
+def positions_of(surface: Indenter | Contact, shape: tuple[int, ...]) -> dict[str, Any]:
+    """Return the coordinates y and x of the points of a map, or x of a line, as variables of a NetCDF file.
+
+    They are those of the surface, or 0 at the centre of the map or line.
+
+    shape : numbers of rows and columns of the map, or number of points of the line
     """
-    axes = {"x": indenter.spacing} if indenter.heights.ndim == 1 else {"y": indenter.row_spacing, "x": indenter.spacing}
-    unit = indenter.length_unit
-    variables = {"heights": netcdf.Variable(tuple(axes), indenter.heights, {"long_name": "height", "units": unit})}
-    stated = {"y": indenter.row_positions, "x": indenter.column_positions}
-    variables |= netcdf.axes_of(indenter.heights.shape, axes, unit, stated)
-    return netcdf.Content(variables, {"title": "Heights of a rigid indenter; larger is higher and touches first"})
+    stated = {"y": surface.row_positions, "x": surface.column_positions}
+    spacings = {"y": surface.row_spacing, "x": surface.spacing}
+    variables: dict[str, Any] = {}
+    for name, points in zip(("y", "x")[-len(shape) :], shape, strict=True):
+        positions = stated[name]
+        if positions is None:
+            positions = spacings[name] * (np.arange(points) - (points - 1) / 2)
+        variables[name] = (name,), positions, {"long_name": f"position along {name}", "units": surface.length_unit}
+    return variables

@@ -1,23 +1,25 @@
-"""Read and write CF NetCDF files with netCDF4. `io.datasets` converts their content to datasets of xarray."""
+"""Read and write CF NetCDF files with netCDF4.
 
-from collections.abc import Iterator, Mapping, Sequence
+The content of a file is a pair: its variables {name: (dimensions, values, attributes)}, and its global attributes
+{name: value}. A dataset of xarray is made of such a pair, too (io.datasets).
+"""
+
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
 from viscorough import __version__
-from viscorough.basics.summaries import si_unit, unit_power
-from viscorough.basics.types import Array, FilePath
+from viscorough.basics.types import FilePath
 from viscorough.io.atomic import Refused, atomic_write, reading
 from viscorough.io.digest import add_digest, check_digest
 
-# {name of a variable: (long_name, unit)}. The unit is a number n (the unit of length to the power n), "time" (always in
-# s), "velocity" (length per s), or an SI unit such as "N". If the unit of length is not known, SI units become "1".
-Quantities = Mapping[str, tuple[str, int | str]]
+Variables = Mapping[str, tuple[tuple[str, ...], Any, dict[str, Any]]]
+Content = tuple[dict[str, tuple[tuple[str, ...], Any, dict[str, Any]]], dict[str, Any]]
 # Attributes that netCDF4 compares with stored values; it ignores them if their type is not that of the values.
 _MARKS = ("_FillValue", "missing_value", "valid_range", "valid_min", "valid_max")
 # Attributes that describe how values are stored. They do not apply to unpacked values.
@@ -28,78 +30,6 @@ _CLASSIC, _HDF5, _HDF5_OFFSETS = (b"CDF\x01", b"CDF\x02", b"CDF\x05"), b"\x89HDF
 # more room than compression saves. Level 1 takes half the time of the usual level 4, and makes files a few percent
 # larger.
 COMPRESSED_FROM = 4096
-
-
-class Variable(NamedTuple):
-    """Variable of a NetCDF file: names of its dimensions, array of values, attributes {name: value}."""
-
-    dimensions: tuple
-    values: np.ndarray
-    attributes: dict
-
-
-class Content(NamedTuple):
-    """Content of a NetCDF file: variables {name: Variable} and global attributes {name: value}.
-
-    path : path of the file from which the Content was read, for error messages; None if it was not read from a file
-    """
-
-    variables: dict[str, Variable]
-    attributes: dict[str, Any]
-    path: FilePath | None = None
-
-    def with_attributes(self, **attributes: Any) -> "Content":
-        """Return the content with global attributes added or replaced."""
-        return self._replace(attributes=self.attributes | attributes)
-
-
-def described(
-    dimensions: tuple[str, ...], values: Mapping[str, Any], quantities: Quantities, length_unit: str
-) -> dict[str, Variable]:
-    """Return {name: Variable}: arrays with their dimensions, long names and units.
-
-    dimensions : names of the dimensions of all arrays
-    values : {name: array}
-    quantities : {name: (long_name, unit)}, see `Quantities`
-    length_unit : unit of length; "1" if it is not known
-    """
-    spelled: dict[int | str, str] = {power: unit_power(length_unit, power) for power in (0, 1, 2)}
-    spelled |= {"time": "s", "velocity": "s-1" if length_unit == "1" else f"{length_unit} s-1"}
-    variables = {}
-    for name, array in values.items():
-        long_name, unit = quantities[name]
-        attributes = {"long_name": long_name, "units": spelled.get(unit) or si_unit(str(unit), length_unit)}
-        variables[name] = Variable(dimensions, array, attributes)
-    return variables
-
-
-def axes_of(
-    shape: tuple[int, ...],
-    spacings: Mapping[str, float],
-    unit: str,
-    stated: Mapping[str, Array | None] | None = None,
-) -> dict[str, Variable]:
-    """Return the coordinates of the points of a map or line, {dimension: Variable}.
-
-    spacings : {dimension: distance between neighbouring points}, in the order of `shape`
-    stated : {dimension: coordinates}, if they are known; other coordinates rise, and are 0 at the centre
-    unit : unit of the spacings and coordinates
-    """
-    axes = {}
-    for (name, spacing), points in zip(spacings.items(), shape, strict=True):
-        positions = (stated or {}).get(name)
-        if positions is None:
-            positions = spacing * (np.arange(points) - (points - 1) / 2)
-        axes[name] = Variable((name,), positions, {"long_name": f"position along {name}", "units": unit})
-    return axes
-
-
-def padded(rows: Sequence[Array]) -> Array:
-    """Combine rows of numbers into one array, with nan beyond the ends of shorter rows."""
-    table = np.full((len(rows), max(map(len, rows))), np.nan)
-    for whole, row in zip(table, rows, strict=True):
-        whole[: len(row)] = row
-    return table
 
 
 def global_attributes() -> dict[str, str]:
@@ -121,16 +51,16 @@ def written_with_digest(path: FilePath) -> Iterator[Path]:
             add_digest(file)
 
 
-def write(content: Content, path: FilePath) -> None:
-    """Write a Content as CF-1.11 NetCDF, atomically; nan is the fill value.
+def write(path: FilePath, variables: Variables, attributes: Mapping[str, Any]) -> None:
+    """Write variables and global attributes as CF-1.11 NetCDF, atomically; nan is the fill value.
 
     Every variable needs the attribute `long_name`, and `units` unless it holds text. The file gets global_attributes
     and a digest, and large arrays are compressed. Raises ValueError for a path that cannot be written, OSError if
     writing fails.
     """
     with written_with_digest(path) as temporary, netCDF4.Dataset(temporary, "w") as file:
-        file.setncatts(content.attributes | global_attributes())
-        for name, (dimensions, values, attributes) in content.variables.items():
+        file.setncatts({**attributes, **global_attributes()})
+        for name, (dimensions, values, about) in variables.items():
             values = np.asarray(values)
             for dimension, size in zip(dimensions, values.shape, strict=True):
                 if dimension not in file.dimensions:
@@ -140,7 +70,7 @@ def write(content: Content, path: FilePath) -> None:
             fill = np.nan if values.dtype.kind == "f" and name not in dimensions else None
             is_large = values.size >= COMPRESSED_FROM
             stored = file.createVariable(name, kind, dimensions, fill_value=fill, zlib=is_large, complevel=1)
-            stored.setncatts(attributes)
+            stored.setncatts(about)
             stored[...] = values
 
 
@@ -202,7 +132,7 @@ def unpacked(variable: netCDF4.Variable) -> NDArray[Any]:
 
 
 def read(path: FilePath, content: bytes | None = None) -> Content:
-    """Read a NetCDF file into memory as a Content; missing values are nan.
+    """Read variables and global attributes of a NetCDF file into memory; missing values are nan.
 
     content : content of the file, if it was read before
 
@@ -212,5 +142,5 @@ def read(path: FilePath, content: bytes | None = None) -> Content:
         variables = {}
         for name, variable in file.variables.items():
             attributes = {key: variable.getncattr(key) for key in variable.ncattrs() if key not in _STORAGE}
-            variables[name] = Variable(variable.dimensions, unpacked(variable), attributes)
-        return Content(variables, {name: file.getncattr(name) for name in file.ncattrs()}, path)
+            variables[name] = variable.dimensions, unpacked(variable), attributes
+        return variables, {name: file.getncattr(name) for name in file.ncattrs()}

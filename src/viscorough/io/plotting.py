@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from viscorough.basics.summaries import shown_unit
 from viscorough.basics.types import Array, FilePath
 from viscorough.io.atomic import atomic_write
-from viscorough.io.netcdf import Content, Variable
+from viscorough.io.netcdf import Content, Variables
 from viscorough.io.saving import Result, to_content
 from viscorough.io.suffixes import FIGURES, check_suffix
 
@@ -45,8 +45,9 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
 
     Parameters
     ----------
-    result : Content or Indenter or LoadingCurve or Contact or Motion or Estimate
-        Result of the library, or the io.netcdf.Content of a file. Needs matplotlib: pip install "viscorough[plot]".
+    result : tuple or Indenter or LoadingCurve or Contact or Motion or Estimate
+        Result of the library, or the pair that io.netcdf.read returns for a file. Needs matplotlib: pip install
+        "viscorough[plot]".
     path : path, optional
         File to write atomically (.png, .pdf or .svg). The same result gives the same bytes. By default none is written.
 
@@ -59,7 +60,7 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
     Raises
     ------
     ValueError
-        For a suffix that is not allowed, and for a Content that holds none of these results.
+        For a suffix that is not allowed, and for a file that holds none of these results.
 
     Examples
     --------
@@ -70,11 +71,11 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
     ('depth (µm)', 'force F/G (µm2)')
     """
     suffix = "" if path is None else check_suffix(path, FIGURES)
-    variables = (result if isinstance(result, Content) else to_content(result)).variables
+    variables, _ = result if isinstance(result, tuple) else to_content(result)
     with mpl.rc_context(_STYLE):
         figure = _Shown(figsize=(4.6, 3.6), layout="constrained")
         axes = figure.subplots()
-        maps = [name for name in _MAPS if name in variables and variables[name].dimensions[-2:] == ("y", "x")]
+        maps = [name for name in _MAPS if name in variables and variables[name][0][-2:] == ("y", "x")]
         curves = [each for each in _CURVES if set(each[:2]) <= set(variables)]
         if maps and {"x", "y"} <= set(variables):
             _draw_map(figure, axes, variables, maps[0])
@@ -88,11 +89,11 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
     return figure
 
 
-def _draw_map(figure: Figure, axes: Axes, variables: dict[str, Variable], name: str) -> None:
+def _draw_map(figure: Figure, axes: Axes, variables: Variables, name: str) -> None:
     """Draw a map, grey outside the indenter; of several maps, the last."""
     values, label = _drawn(variables, name)
     values = values.reshape(-1, *values.shape[-2:])[-1]
-    size = max(np.abs(variables[axis].values).max() for axis in ("x", "y"))  # both axes have one unit
+    size = max(np.abs(variables[axis][1]).max() for axis in ("x", "y"))  # both axes have one unit
     (x, x_label), (y, y_label) = (_drawn(variables, axis, size) for axis in ("x", "y"))
     ends: list[float] = []
     for position in (x, y):
@@ -105,7 +106,7 @@ def _draw_map(figure: Figure, axes: Axes, variables: dict[str, Variable], name: 
     figure.colorbar(image, ax=axes, label=label)
 
 
-def _draw_curve(axes: Axes, variables: dict[str, Variable], x: str, y: str, scale: Any) -> None:
+def _draw_curve(axes: Axes, variables: Variables, x: str, y: str, scale: Any) -> None:
     """Draw a curve, or all curves of a stack; logarithmic axes show positive values only."""
     (xs, x_label), (ys, y_label) = _drawn(variables, x), _drawn(variables, y)
     for along, over in zip(np.atleast_2d(xs), np.atleast_2d(ys), strict=True):
@@ -114,9 +115,10 @@ def _draw_curve(axes: Axes, variables: dict[str, Variable], x: str, y: str, scal
     axes.set(xscale=scale, yscale=scale, xlabel=x_label, ylabel=y_label)
 
 
-def _drawn(variables: dict[str, Variable], name: str, largest: float | None = None) -> tuple[Array, str]:
+def _drawn(variables: Variables, name: str, largest: float | None = None) -> tuple[Array, str]:
     """Return the values of a variable and the label of their axis; `largest` decides the unit of lengths in metres."""
-    values, unit = variables[name].values, str(variables[name].attributes.get("units", "1"))
+    _, values, about = variables[name]
+    unit = str(about.get("units", "1"))
     largest = np.nanmax(np.abs(values), initial=0.0) if largest is None else largest
     unit, size = shown_unit(largest, unit)
     values, unit = values / size, unit.replace("um", "µm") if size < 1 else unit

@@ -1,7 +1,10 @@
 """Write results to files in the formats that the command line uses, and read loading curves from such files."""
 
+from typing import Any
+
 from viscorough.basics.types import FilePath
 from viscorough.io import netcdf, tables
+from viscorough.io.atomic import path_named
 from viscorough.io.contact_files import contacts_to_content
 from viscorough.io.curves import curve_from_content, curve_to_content
 from viscorough.io.heights import surface_to_content
@@ -14,7 +17,7 @@ from viscorough.results.motion import Motion
 from viscorough.surfaces.indenter import Indenter
 
 Result = Indenter | LoadingCurve | Contact | Motion | Estimate
-WRITERS = {".nc": netcdf.write, ".csv": tables.write}
+WRITERS: dict[str, Any] = {".nc": netcdf.write, ".csv": tables.write}
 
 
 def save(result: Result, path: FilePath) -> None:
@@ -80,7 +83,9 @@ def load_curve(path: FilePath) -> LoadingCurve:
     >>> bool((loaded.force == curve.force).all())
     True
     """
-    return curve_from_content(netcdf.read(path))
+    content = netcdf.read(path)
+    with path_named(path):
+        return curve_from_content(content)
 
 
 def to_content(result: Result) -> netcdf.Content:
@@ -101,5 +106,5 @@ def to_content(result: Result) -> netcdf.Content:
 
 
 def write_content(content: netcdf.Content, path: FilePath) -> None:
-    """Write a Content as NetCDF, or as a table if the path ends in .csv. Raises the errors of `save`."""
-    WRITERS[check_suffix(path, RESULTS)](content, path)
+    """Write variables and attributes as NetCDF, or as a table for .csv. Raises the errors of `save`."""
+    WRITERS[check_suffix(path, RESULTS)](path, *content)

@@ -7,28 +7,29 @@ All other lines are rows of numbers in full precision. The field of a missing va
 
 import csv
 import json
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
 from viscorough.basics.types import FilePath
 from viscorough.io.atomic import atomic_write
-from viscorough.io.netcdf import Content, global_attributes
+from viscorough.io.netcdf import Variables, global_attributes
 
 
-def write(content: Content, path: FilePath) -> None:
-    """Write a Content whose variables share one dimension as CSV, atomically.
+def write(path: FilePath, variables: Variables, attributes: Mapping[str, Any]) -> None:
+    """Write variables that share one dimension as CSV, atomically.
 
     Raises ValueError for variables without a common dimension and for a path that cannot be written, OSError if writing
     fails.
     """
-    columns = content.variables
-    dimensions = {variable.dimensions for variable in columns.values()}
+    dimensions = {along for along, _, _ in variables.values()}
     if len(dimensions) != 1 or len(*dimensions) != 1:
         raise ValueError(f"{path}: what was computed is no table of one dimension; a NetCDF file (.nc) is needed")
-    attributes = content.attributes | global_attributes()
-    attributes |= {f"column {name}": variable.attributes["long_name"] for name, variable in columns.items()}
-    units = {name: variable.attributes.get("units", "1") for name, variable in columns.items()}
-    cells = [[_cell(value) for value in variable.values.tolist()] for variable in columns.values()]
+    attributes = {**attributes, **global_attributes()}
+    attributes |= {f"column {name}": about["long_name"] for name, (_, _, about) in variables.items()}
+    units = {name: about.get("units", "1") for name, (_, _, about) in variables.items()}
+    cells = [[_cell(value) for value in np.asarray(values).tolist()] for _, values, _ in variables.values()]
     with atomic_write(path) as temporary, open(temporary, "w", encoding="utf-8", newline="") as file:
         for name, value in attributes.items():
             file.write(f"# {name}: {json.dumps(np.asarray(value).tolist(), ensure_ascii=False)}\n")

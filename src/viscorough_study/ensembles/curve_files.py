@@ -19,7 +19,7 @@ def write_curves(curves, path, **attributes):
     ensembles.
     """
     settings, realizations, curves = zip(*curves, strict=True)
-    content, unit = stack_curves(curves), curves[0].length_unit
+    (variables, about), unit = stack_curves(curves), curves[0].length_unit
     ensemble, number, hurst, diameter, spacing, rms, until_x = zip(*realizations, strict=True)
     stored = {f"rms_{name}": (np.array([heights[name] for heights in rms]), RMS[name], unit) for name in rms[0]}
     stored |= {
@@ -32,8 +32,8 @@ def write_curves(curves, path, **attributes):
     }
     for name, (values, text, units) in stored.items():
         described = {"long_name": text} | ({"units": units} if units else {})
-        content.variables[name] = netcdf.Variable(("realization",) * values.ndim, values, described)
-    netcdf.write(content.with_attributes(settings=json.dumps(distinct(settings)), **attributes), path)
+        variables[name] = ("realization",) * values.ndim, values, described
+    netcdf.write(path, variables, about | {"settings": json.dumps(distinct(settings)), **attributes})
 
 
 def read_curves(path):
@@ -42,9 +42,9 @@ def read_curves(path):
     The settings are those of all ensembles in the file, as a list of dicts. Raises a one-line ValueError if the file is
     missing or damaged.
     """
-    content = netcdf.read(path)
-    values = {name: variable.values for name, variable in content.variables.items()}
-    levels, unit = values["levels"].tolist(), content.variables["depth"].attributes["units"]
+    variables, attributes = netcdf.read(path)
+    values = {name: each for name, (_, each, _) in variables.items()}
+    levels, unit = values["levels"].tolist(), variables["depth"][2]["units"]
     shared = ("case", "number", "hurst", "diameter", "spacing", "until_x")
     labels = zip(*(np.broadcast_to(values[name], len(levels)).tolist() for name in shared), strict=True)
     heights = {name: values[f"rms_{name}"].tolist() for name in RMS if f"rms_{name}" in values}
@@ -58,7 +58,7 @@ def read_curves(path):
         fields["contact_count"] = fields["contact_count"].astype(int)
         curve = LoadingCurve(**fields, length_unit=unit)
         curves.append((Realization(case, number, hurst, diameter, spacing, rms, until_x), curve))
-    return curves, json.loads(content.attributes["settings"])
+    return curves, json.loads(attributes["settings"])
 
 
 def distinct(values):

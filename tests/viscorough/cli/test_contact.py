@@ -7,7 +7,7 @@ import viscorough
 from support.command_line import run, save_in, values
 from support.tables import read_table
 from viscorough import Indenter, contact_at, self_affine_disc
-from viscorough.io import netcdf
+from viscorough.io.datasets import read_dataset
 
 
 @pytest.fixture
@@ -53,7 +53,7 @@ def test_several_forces_add_a_dimension(here, capsys):
     assert several["pressure"].shape == (2, 25, 25)
     np.testing.assert_array_equal(several["force"], [1, 30])
     assert capsys.readouterr().out.startswith("out.nc: 2 levels, the last at depth ")
-    assert {netcdf.read("out.nc").variables[name].dimensions for name in ("depth", "force")} == {("level",)}
+    assert {read_dataset("out.nc").variables[name].dims for name in ("depth", "force")} == {("level",)}
     np.testing.assert_allclose(several["gap"][1], contact("--force 30")["gap"], atol=1e-3)
     assert np.isfinite(several["patch_area"]).sum(axis=1).tolist() == several["patches"].tolist()
 
@@ -64,16 +64,16 @@ def test_forces_with_a_modulus_are_newtons_if_the_file_has_a_unit(here):
     for given in (*shear, "--young '6 GPa' --force '6e4 uN'", "--young 4.5e9 --poisson 0.5 --force 0.045"):
         assert contact(given, heights="um.nc")["force"] == pytest.approx(30, rel=1e-12)
     assert contact("--depth '500 nm' --shear-modulus 1", heights="um.nc")["depth"] == 0.5
-    units = {name: netcdf.read("out.nc").variables[name].attributes["units"] for name in ("depth", "force", "pressure")}
+    units = {name: read_dataset("out.nc").variables[name].attrs["units"] for name in ("depth", "force", "pressure")}
     assert units == {"depth": "um", "force": "um2", "pressure": "1"}
 
 
 def test_files_have_force_stiffness_and_pressure_in_si_units(here):
     """G = 2 MPa and lengths in um: G um2 is 2e-6 N and G um is 2 N/m."""
     written = contact("--depth 0.5 --shear-modulus '2 MPa'", heights="um.nc")
-    variables = netcdf.read("out.nc").variables
+    variables = read_dataset("out.nc").variables
     names = {"normal_force": "N", "normal_stiffness": "N m-1", "normal_pressure": "Pa", "largest_normal_pressure": "Pa"}
-    assert {name: variables[name].attributes["units"] for name in names} == names
+    assert {name: variables[name].attrs["units"] for name in names} == names
     factors = {"force": 2e-6, "stiffness": 2.0, "pressure": 2e6}
     for name, factor in factors.items():
         np.testing.assert_allclose(written[f"normal_{name}"], factor * written[name], rtol=1e-6)

@@ -6,7 +6,7 @@ import pytest
 from support.command_line import run
 from support.tables import read_table
 from viscorough import estimate
-from viscorough.io import netcdf
+from viscorough.io.datasets import read_dataset
 
 OPTIONS = {"hurst": "0.8", "rms": "1e-6", "diameter": "0.01", "force": "10", "viscosity": "1e6", "times": "1e-5,1e-4"}
 WANTED = estimate(0.8, 1e-6, 0.01, 10.0, 1e6, [1e-5, 1e-4])
@@ -48,11 +48,11 @@ def test_file_has_all_numbers_of_the_table(capsys):
     for name in ("estimate.nc", "estimate.csv"):
         assert run(command(f"-o {name}")) == 0
         assert capsys.readouterr().out == f"{name}: 2 times, 2 in the range of the law\n"
-    content, (table, _) = netcdf.read("estimate.nc"), read_table("estimate.csv")
+    content, (table, _) = read_dataset("estimate.nc"), read_table("estimate.csv")
     for variable in NAMES:
         np.testing.assert_array_equal(content.variables[variable].values, getattr(WANTED, variable))
         np.testing.assert_array_equal(table[variable], getattr(WANTED, variable))
-    assert content.attributes["hurst"] == 0.8
+    assert content.attrs["hurst"] == 0.8
     for name in ("depth_error", "velocity_error"):
-        assert content.attributes[name] == getattr(WANTED.law, name)
-    assert content.variables["depth"].attributes["units"] == "1"
+        assert content.attrs[name] == getattr(WANTED.law, name)
+    assert content.variables["depth"].attrs["units"] == "1"

@@ -19,6 +19,7 @@ from support.curves import random_curve
 from support.faults import contents, no_privileges
 from viscorough.cli import files
 from viscorough.io import netcdf
+from viscorough.io.datasets import read_dataset
 
 INDENT = "indent heights.npy --spacing 1 --unit 1 -o out.nc"
 KINETICS = "kinetics curve.nc --force 1 --viscosity 1 -o out.nc"
@@ -64,7 +65,7 @@ def shell(line, **environment):
 @pytest.mark.parametrize("redirection", [">&- 2>&- <&-", ">/dev/full"])
 def test_complete_output_is_success_with_a_closed_output_stream(redirection):
     assert shell(f"viscorough {KINETICS} {redirection}")[:2] == (0, "")
-    assert "time" in netcdf.read("out.nc").variables, "not the older one"
+    assert "time" in read_dataset("out.nc").variables, "not the older one"
 
 
 # ---- interrupts and warnings

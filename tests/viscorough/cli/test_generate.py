@@ -5,7 +5,7 @@ import pytest
 
 from support.command_line import run
 from viscorough import indent, load_curve, read_line, self_affine_disc, self_affine_line
-from viscorough.io import netcdf
+from viscorough.io.datasets import read_dataset
 
 COMMON = "generate --hurst 0.7 --rms 0.2"
 DISC = f"{COMMON} --elements 17 --diameter 34 --unit um"
@@ -21,13 +21,13 @@ def disc(**options):
 
 def test_disc_has_heights_coordinates_and_units_and_is_read_back_by_indent():
     assert run(f"{DISC} {END}") == 0
-    made = netcdf.read("made.nc")
+    made = read_dataset("made.nc")
     np.testing.assert_allclose(made.variables["heights"].values, disc().heights, rtol=1e-14)
-    assert made.variables["heights"].dimensions == ("y", "x")
+    assert made.variables["heights"].dims == ("y", "x")
     for name in ("x", "y"):
         np.testing.assert_allclose(made.variables[name].values, 2.0 * (np.arange(17) - 8), rtol=1e-15)
-    assert {variable.attributes["units"] for variable in made.variables.values()} == {"um"}
-    assert (made.attributes["hurst"], made.attributes["seed"], made.attributes["diameter"]) == (0.7, 5, 34)
+    assert {variable.attrs["units"] for variable in made.variables.values()} == {"um"}
+    assert (made.attrs["hurst"], made.attrs["seed"], made.attrs["diameter"]) == (0.7, 5, 34)
     assert run("indent made.nc -o curve.nc") == 0
     curve = load_curve("curve.nc")
     np.testing.assert_allclose(curve.force, 1e-12 * indent(disc()).force, rtol=1e-9)
@@ -53,6 +53,6 @@ def test_line_is_read_back_by_reduce():
 )
 def test_units_and_roll_off_are_passed_on(line, options):
     assert run(f"{line} {END}") == 0
-    heights = netcdf.read("made.nc").variables["heights"]
+    heights = read_dataset("made.nc").variables["heights"]
     np.testing.assert_allclose(heights.values, disc(**options).heights, rtol=1e-12)
-    assert heights.attributes["units"] == "um"
+    assert heights.attrs["units"] == "um"

@@ -5,7 +5,7 @@ import pytest
 
 from support.command_line import run, save_in, values
 from viscorough import indent, load_curve, read_heights, self_affine_disc
-from viscorough.io import netcdf
+from viscorough.io.datasets import read_dataset
 
 
 @pytest.fixture
@@ -19,7 +19,7 @@ def disc(here):
 def test_grid_error_is_stored_and_stated(disc, capsys):
     assert run("indent disc.nc --grid-error -o curve.nc") == 0
     expected = indent(disc, estimate_grid_error=True)
-    assert netcdf.read("curve.nc").variables["grid_error"].dimensions == ("level",)
+    assert read_dataset("curve.nc").variables["grid_error"].dims == ("level",)
     written = load_curve("curve.nc")
     np.testing.assert_allclose([written.depth, written.force], [expected.depth, expected.force], rtol=1e-14)
     np.testing.assert_array_equal(written.grid_error, expected.grid_error)
@@ -35,7 +35,7 @@ def test_kinetics_states_the_grid_error_of_its_curve(disc, capsys):
     line = capsys.readouterr().out.splitlines()[-1]
     assert run("kinetics curve.nc --force '1 uN' --viscosity 1e4 -o motion.nc") == 0
     assert capsys.readouterr().out.splitlines()[-1] == line
-    assert netcdf.read("motion.nc").attributes["mean_grid_error"] == load_curve("curve.nc").mean_grid_error
+    assert read_dataset("motion.nc").attrs["mean_grid_error"] == load_curve("curve.nc").mean_grid_error
 
 
 def test_kinetics_states_the_grid_error_of_the_force_at_the_largest_depth(disc, capsys, here):
@@ -46,4 +46,4 @@ def test_kinetics_states_the_grid_error_of_the_force_at_the_largest_depth(disc, 
     assert run("kinetics curve.nc --depth-history depth.csv --viscosity 1e4 -o motion.nc") == 0
     expected = curve.force_grid_error[level]
     assert f"grid error of the force about {100 * expected:.2g} %" in capsys.readouterr().out
-    assert netcdf.read("motion.nc").attributes["force_grid_error"] == pytest.approx(expected)
+    assert read_dataset("motion.nc").attrs["force_grid_error"] == pytest.approx(expected)

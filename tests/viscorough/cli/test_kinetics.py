@@ -12,7 +12,7 @@ import yaml
 import viscorough
 from support.command_line import run, save_in, sphere_heights, values
 from viscorough import Indenter, Load, indent, kinetics
-from viscorough.io import netcdf
+from viscorough.io.datasets import read_dataset
 from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
 
 MEDIA = {
@@ -85,7 +85,7 @@ def test_depth_histories_load_hold_unload_and_lift(here, curve, capsys, times):
         np.testing.assert_array_equal(written[name], getattr(motion, name))
     assert written["force"].max() > 0
     assert (written["force"][-1], written["contact_fraction"][-1]) == (0, 0)
-    assert netcdf.read("kin.nc").attributes["depth"] == "depth.csv"
+    assert read_dataset("kin.nc").attrs["depth"] == "depth.csv"
     assert "and force 0 at time 4" in capsys.readouterr().out
 
 
@@ -113,7 +113,7 @@ def test_units_are_converted_if_the_curve_has_a_unit_of_length(here, curve, opti
     (here / "mega.yaml").write_text("{kind: maxwell, shear_modulus: 2 MPa, viscosity: 5e6}")
     assert run(f"kinetics um.nc -o kin.nc {options}") == 0
     np.testing.assert_allclose(values("kin.nc")["depth"], kinetics(curve, *expected).depth, rtol=1e-12)
-    assert netcdf.read("kin.nc").variables["velocity"].attributes["units"] == "um s-1"
+    assert read_dataset("kin.nc").variables["velocity"].attrs["units"] == "um s-1"
 
 
 def test_missing_values_give_a_warning(here, capsys, complaint):
@@ -125,7 +125,7 @@ def test_missing_values_give_a_warning(here, capsys, complaint):
     assert run(f"kinetics late.nc {load} -o kin.nc") == 0
     assert np.isnan(values("kin.nc")["depth"]).tolist() == [False, True, False, False]
     assert "at 1 of 4 times depth, force or velocity are missing" in capsys.readouterr().err
-    assert "depth, force or velocity are missing" in netcdf.read("kin.nc").attributes["warnings"]
+    assert "depth, force or velocity are missing" in read_dataset("kin.nc").attrs["warnings"]
     line = f"kinetics late.nc {load} --times 0.1,0.11 -o k.nc"
     assert "all times are before the curve's first level" in complaint(line)
 

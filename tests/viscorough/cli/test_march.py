@@ -5,7 +5,7 @@ import pytest
 
 from support.command_line import run, values
 from viscorough import self_affine_disc
-from viscorough.io import netcdf
+from viscorough.io.datasets import read_dataset
 
 HEIGHTS = self_affine_disc(0.7, 13, rms=0.02, diameter=13.0, seed=3).heights
 MARCH = "march heights.npy --spacing 1 --unit 1 -o march.nc"
@@ -50,8 +50,8 @@ def test_march_continues_while_contact_recedes(complaint):
     message = "--method events, a medium that is not Newtonian; allowed: a force on a Newtonian medium, or --method"
     assert message in complaint(f"{MARCH} --method events {PULSE}")
     assert run(f"{MARCH} --method implicit {PULSE}") == 0
-    content = netcdf.read("march.nc")
-    assert content.attributes["receding_from"] == 2.0
+    content = read_dataset("march.nc")
+    assert content.attrs["receding_from"] == 2.0
     fraction, force = (content.variables[name].values for name in ("contact_fraction", "force"))
     np.testing.assert_array_equal(force, [0, 0.2, 0.02, 0.02])
     assert fraction[2] < fraction[1]

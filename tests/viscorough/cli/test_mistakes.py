@@ -12,7 +12,7 @@ import viscorough
 from support.command_line import save_in, sphere_heights
 from support.curves import random_curve
 from viscorough import Indenter
-from viscorough.io.netcdf import Content, Variable, write
+from viscorough.io.netcdf import write
 
 INDENT, CONTACT = (f"{command} heights.npy --spacing 1 --unit 1 -o out.nc" for command in ("indent", "contact"))
 CONTACT_UM, MARCH = "contact um.nc -o out.nc", f"{INDENT.replace('indent', 'march')} --method"
@@ -155,7 +155,7 @@ def test_mistakes_are_one_line(here, complaint, line, what):
     viscorough.save(random_curve(length_unit="1"), "curve.nc")
     viscorough.save(Indenter(sphere_heights(9), 1.0), "map.nc")
     save_in("um", Indenter(1e-6 * sphere_heights(9), 1e-6, length_unit="m"), "um.nc")
-    write(Content({"a": Variable(("b",), np.arange(3.0), {"long_name": "a", "units": "1"})}, {}), "other.nc")
+    write("other.nc", {"a": (("b",), np.arange(3.0), {"long_name": "a", "units": "1"})}, {})
     (here / "medium.yaml").write_text("{kind: newtonian, viscosity: 30}")
     (here / "table.csv").write_text("0,0\n1e-6,1e-12\n")
     (here / "deep.csv").write_text("time,depth\n0,0\n1,1e6\n2,2e6\n3,3e6\n4,4e6\n")

@@ -6,7 +6,7 @@ import pytest
 import viscorough
 from support.command_line import run
 from viscorough import Indenter, load_curve, mdr, self_affine_disc, self_affine_line
-from viscorough.io import netcdf
+from viscorough.io.datasets import read_dataset
 
 LINE = self_affine_line(0.6, 512, rms=0.2, length=128.0, seed=3)
 IN_METRES = Indenter(LINE.heights.astype(float) * 1e-6, 2.5e-7, length_unit="m")
@@ -43,9 +43,9 @@ def test_map_gives_many_lines_and_a_warning(capsys):
     assert run("reduce map.npy --spacing 1 --unit 1 --realizations 3 --seed 7 -o curves.nc") == 0
     said, warning = capsys.readouterr()
     assert "3 curves, the first with " in said
-    content = netcdf.read("curves.nc")
+    content = read_dataset("curves.nc")
     assert "not the curve of this surface" in warning
-    assert content.attributes["warnings"] in warning
+    assert content.attrs["warnings"] in warning
     depths, levels = (content.variables[name].values for name in ("depth", "levels"))
     assert len(depths) == 3
     for index, (depth, number) in enumerate(zip(depths, levels, strict=True)):

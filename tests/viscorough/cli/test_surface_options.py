@@ -6,7 +6,7 @@ import xarray as xr
 
 from support.command_line import run
 from viscorough import Indenter, indent, load_curve, prepare
-from viscorough.io import netcdf
+from viscorough.io.datasets import read_dataset
 
 N = 17
 DX, DY = 0.5, 0.75  # micrometres
@@ -22,7 +22,7 @@ pytestmark = pytest.mark.usefixtures("here")
 def curve_of(capsys, arguments, *warnings):
     """Return the loading curve and the attributes of the file that indent makes, after a check of its stderr."""
     assert run(f"indent {arguments} -o curve.nc") == 0
-    lines, attributes = capsys.readouterr().err.splitlines(), netcdf.read("curve.nc").attributes
+    lines, attributes = capsys.readouterr().err.splitlines(), read_dataset("curve.nc").attrs
     assert len(lines) == len(warnings)
     for line, warning in zip(lines, warnings, strict=True):
         assert line.startswith("viscorough indent: warning: ")

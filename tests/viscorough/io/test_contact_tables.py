@@ -46,7 +46,7 @@ def test_without_a_unit_of_length_numbers_stay_consistent():
 
 
 def test_a_table_has_a_row_for_each_contact(tmp_path):
-    tables.write(contact_tables.contact_table(contacts(), MODULUS), tmp_path / "table.csv")
+    tables.write(tmp_path / "table.csv", *contact_tables.contact_table(contacts(), MODULUS))
     table, units = read_table(tmp_path / "table.csv")
     rows, expected = contact_tables.rows_of_contacts(contacts(), MODULUS)
     assert table.to_dict("records") == rows

@@ -9,16 +9,15 @@ from support.curves import assert_same_curve, random_curve
 from viscorough import Indenter, load_curve
 from viscorough.io import netcdf
 from viscorough.io.curves import curve_from_content, curve_to_content, stack_curves
-from viscorough.io.netcdf import Content
 
 
 def values(name, change):
     """Return a change of a content: a function replaces the values of a variable."""
 
     def changed(content):
-        variable = content.variables[name]
-        replaced = variable._replace(values=change(variable.values.copy()))
-        return Content(content.variables | {name: replaced}, content.attributes)
+        variables, about = content
+        dimensions, numbers, attributes = variables[name]
+        return variables | {name: (dimensions, change(numbers.copy()), attributes)}, about
 
     return changed
 
@@ -37,18 +36,18 @@ def units(**texts):
     """Return a change of a content: new units of some variables; None: without units."""
 
     def changed(content):
-        variables = dict(content.variables)
+        variables, about = dict(content[0]), content[1]
         for name, unit in texts.items():
             attributes = {"long_name": name} | ({} if unit is None else {"units": unit})
-            variables[name] = variables[name]._replace(attributes=attributes)
-        return Content(variables, content.attributes)
+            variables[name] = *variables[name][:2], attributes
+        return variables, about
 
     return changed
 
 
 def attribute(name, value):
     """Return a change of a content: a new attribute."""
-    return lambda content: content.with_attributes(**{name: value})
+    return lambda content: (content[0], content[1] | {name: value})
 
 
 ABOUT_GRID = {
@@ -86,10 +85,10 @@ def test_lengths_are_converted_to_metres():
 
 def test_curves_of_one_unit_are_stacked():
     curves = [random_curve(5), random_curve(1, seed=1, method="dense"), random_curve(9, seed=2)]
-    content = stack_curves(curves)
-    assert content.variables["depth"].dimensions == ("realization", "level")
-    assert np.isnan(content.variables["depth"].values).sum() == 4 + 8
-    assert content.variables["levels"].values.tolist() == [5, 1, 9]
+    variables, _ = stack_curves(curves)
+    assert variables["depth"][0] == ("realization", "level")
+    assert np.isnan(variables["depth"][1]).sum() == 4 + 8
+    assert variables["levels"][1].tolist() == [5, 1, 9]
     with refused("at least one"):
         stack_curves([])
     with refused("lengths are in m and 1; one unit is allowed"):
@@ -98,8 +97,8 @@ def test_curves_of_one_unit_are_stacked():
 
 WHOLE, FROM_0 = "a whole number.* is needed", "a number from 0 on.* is needed"
 IMPOSSIBLE = [
-    (lambda content: Content({"depth": content.variables["depth"]}, {}), r"no numbers force\(level\)"),
-    (lambda content: Content(content.variables, {}), "no attribute elements"),
+    (lambda content: ({"depth": content[0]["depth"]}, {}), r"no numbers force\(level\)"),
+    (lambda content: (content[0], {}), "no attribute elements"),
     (values("force", lambda force: force.astype(str)), r"no numbers force\(level\)"),
     (entry("depth", 3, 0), "loading curve: depth: allowed is one row of finite numbers above 0"),
     (entry("force", -1, np.nan), "force: allowed"),

@@ -11,7 +11,6 @@ from support.curves import random_curve
 from viscorough import load_curve, read_heights
 from viscorough.io import datasets, digest, netcdf
 from viscorough.io.curves import stack_curves
-from viscorough.io.netcdf import Content, Variable
 
 # Heights of these files are patterns of numbers, steeper than real surfaces.
 pytestmark = pytest.mark.filterwarnings("ignore:.*rms slope")
@@ -23,12 +22,12 @@ ABOUT = {"long_name": "depth", "units": "m"}
 def path(tmp_path):
     """Make a file with numbers and texts, both along a dimension and scalar."""
     variables = {
-        "depth": Variable(("level",), np.array([1.0, -0.0, np.nan]), ABOUT),
-        "count": Variable(("level",), np.array([1, 2, 3]), ABOUT | {"valid": np.array([1, 3])}),
-        "spacing": Variable((), np.array(0.1), ABOUT),
-        "case": Variable(("level",), np.array(["a", "b", "c"], dtype=object), {"long_name": "case"}),
+        "depth": (("level",), np.array([1.0, -0.0, np.nan]), ABOUT),
+        "count": (("level",), np.array([1, 2, 3]), ABOUT | {"valid": np.array([1, 3])}),
+        "spacing": ((), np.array(0.1), ABOUT),
+        "case": (("level",), np.array(["a", "b", "c"], dtype=object), {"long_name": "case"}),
     }
-    netcdf.write(Content(variables, {"title": "All kinds", "tolerance": 1e-3}), tmp_path / "all.nc")
+    netcdf.write(tmp_path / "all.nc", variables, {"title": "All kinds", "tolerance": 1e-3})
     return tmp_path / "all.nc"
 
 
@@ -69,7 +68,7 @@ def test_older_files_and_files_of_other_programs_are_read(path):
         file.delncattr(digest.ATTRIBUTE)
         file.setncattr("history", "written by viscorough 1.0.0")
         file["spacing"][...] = 0.2
-    assert netcdf.read(path).variables["spacing"].values == 0.2
+    assert netcdf.read(path)[0]["spacing"][1] == 0.2
     x = np.arange(4.0)
     heights = xr.Dataset({"heights": (("y", "x"), np.eye(4), {"units": "m"})}, {"y": ("y", x), "x": ("x", x)})
     heights.to_netcdf(path)
@@ -77,12 +76,12 @@ def test_older_files_and_files_of_other_programs_are_read(path):
 
 
 def test_file_that_is_written_again_gets_a_new_digest(path):
-    netcdf.write(stack_curves([random_curve(3), random_curve(5)]), path)
+    netcdf.write(path, *stack_curves([random_curve(3), random_curve(5)]))
     once = netcdf.read(path)
-    netcdf.write(once, path)
-    assert netcdf.read(path).attributes == once.attributes
+    netcdf.write(path, *once)
+    assert netcdf.read(path)[1] == once[1]
     datasets.write_dataset(datasets.read_dataset(path).isel(realization=[0]), path)
-    assert netcdf.read(path).variables["levels"].values.tolist() == [3]
+    assert netcdf.read(path)[0]["levels"][1].tolist() == [3]
 
 
 def test_damaged_number_in_a_curve_is_refused(tmp_path):

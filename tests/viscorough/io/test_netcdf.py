@@ -13,29 +13,28 @@ from support.contract import refused
 from support.curves import random_curve
 from support.faults import DAMAGES
 from viscorough.io import datasets, digest, netcdf
-from viscorough.io.curves import curve_to_content
-from viscorough.io.netcdf import Content, Variable
+from viscorough.io.curves import curve_to_content, described
 
 METRES = {"long_name": "depth", "units": "m"}
 
 
 def content_of(values):
-    return Content({"depth": Variable(("level",), values, METRES)}, {"title": "Depths"})
+    return {"depth": (("level",), values, METRES)}, {"title": "Depths"}
 
 
 @pytest.mark.parametrize("levels", [1, netcdf.COMPRESSED_FROM])
 def test_xarray_reads_what_was_written(tmp_path, levels):
     """The same content always gives the same bytes, and a dataset is written with the same content."""
     content = curve_to_content(random_curve(levels))
-    netcdf.write(content, tmp_path / "curve.nc")
-    netcdf.write(content, tmp_path / "again.nc")
+    netcdf.write(tmp_path / "curve.nc", *content)
+    netcdf.write(tmp_path / "again.nc", *content)
     assert (tmp_path / "curve.nc").read_bytes() == (tmp_path / "again.nc").read_bytes()
     ds = xr.load_dataset(tmp_path / "curve.nc")
-    given = xr.Dataset(content.variables, attrs=content.attributes)
+    given = xr.Dataset(content[0], attrs=content[1])
     assert ds.attrs.items() >= given.attrs.items()
     xr.testing.assert_identical(ds.drop_attrs(deep=False), given.drop_attrs(deep=False))
     datasets.write_dataset(ds, tmp_path / "dataset.nc")
-    digests = {netcdf.read(tmp_path / f"{name}.nc").attributes[digest.ATTRIBUTE] for name in ("curve", "dataset")}
+    digests = {netcdf.read(tmp_path / f"{name}.nc")[1][digest.ATTRIBUTE] for name in ("curve", "dataset")}
     assert len(digests) == 1
     with netCDF4.Dataset(tmp_path / "curve.nc") as file:
         assert file["depth"].filters()["zlib"] == (levels > 1)
@@ -57,27 +56,24 @@ def test_content_is_read_exactly_as_written(tmp_path):
     """The content has variables of every kind that an input file may hold, also kinds that no command uses."""
     random = np.random.default_rng(0)
     variables = {
-        "depth": Variable(("level",), np.append(random.random(4), np.nan), METRES),
-        "count": Variable(("level",), np.arange(5, dtype=np.int32), METRES),
-        "level": Variable(("level",), np.arange(5.0), METRES),
-        "map": Variable(("y", "x"), random.random((2, 3)).astype(np.float32), METRES | {"valid": np.array([0.0, 1.0])}),
-        "name": Variable(("y",), np.array(["first", "second"], dtype=object), {"long_name": "name"}),
+        "depth": (("level",), np.append(random.random(4), np.nan), METRES),
+        "count": (("level",), np.arange(5, dtype=np.int32), METRES),
+        "level": (("level",), np.arange(5.0), METRES),
+        "map": (("y", "x"), random.random((2, 3)).astype(np.float32), METRES | {"valid": np.array([0.0, 1.0])}),
+        "name": (("y",), np.array(["first", "second"], dtype=object), {"long_name": "name"}),
     }
-    netcdf.write(Content(variables, {"title": "All kinds", "scale": 2.5}), tmp_path / "a.nc")
-    content = netcdf.read(tmp_path / "a.nc")
-    assert content.attributes.items() >= {"title": "All kinds", "scale": 2.5, "Conventions": "CF-1.11"}.items()
-    for name, variable in variables.items():
-        read = content.variables[name]
-        assert read.dimensions == variable.dimensions
-        np.testing.assert_array_equal(read.values, variable.values, strict=True)
-        np.testing.assert_equal(read.attributes, variable.attributes)
+    netcdf.write(tmp_path / "a.nc", variables, {"title": "All kinds", "scale": 2.5})
+    stored, attributes = netcdf.read(tmp_path / "a.nc")
+    assert attributes.items() >= {"title": "All kinds", "scale": 2.5, "Conventions": "CF-1.11"}.items()
+    for name, (dimensions, values, about) in variables.items():
+        assert stored[name][0] == dimensions
+        np.testing.assert_array_equal(stored[name][1], values, strict=True)
+        np.testing.assert_equal(stored[name][2], about)
 
 
-@pytest.mark.parametrize(("unit", "units"), [("um", ("s", "um s-1", "um2")), ("1", ("s", "s-1", "1"))])
-def test_units_follow_the_unit_of_length(unit, units):
-    quantities = {"t": ("time", "time"), "v": ("velocity", "velocity"), "a": ("area", 2)}
-    variables = netcdf.described(("time",), dict.fromkeys(quantities, np.zeros(1)), quantities, unit)
-    assert tuple(variable.attributes["units"] for variable in variables.values()) == units
+@pytest.mark.parametrize(("unit", "units"), [("m", ("s", "m s-1", "m2")), ("1", ("s", "s-1", "1"))])
+def test_only_times_keep_their_unit_without_a_unit_of_length(unit, units):
+    assert tuple(described("", each, unit)["units"] for each in ("s", "m s-1", "m2")) == units
 
 
 @pytest.mark.parametrize("limit", [0, 20_000])
@@ -87,7 +83,7 @@ def test_full_disk_is_one_line_and_leaves_no_file(tmp_path, limit):
     resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limits[1]))
     try:
         with pytest.raises(OSError, match=r"curve\.nc: not written .*; room on a writable disk is needed") as error:
-            netcdf.write(content_of(noise), tmp_path / "curve.nc")
+            netcdf.write(tmp_path / "curve.nc", *content_of(noise))
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     assert len(str(error.value).splitlines()) == 1
@@ -95,7 +91,7 @@ def test_full_disk_is_one_line_and_leaves_no_file(tmp_path, limit):
 
 
 def test_missing_foreign_and_damaged_files_are_one_line(tmp_path):
-    netcdf.write(content_of(np.random.default_rng(0).random(5_000)), tmp_path / "whole.nc")
+    netcdf.write(tmp_path / "whole.nc", *content_of(np.random.default_rng(0).random(5_000)))
     whole = (tmp_path / "whole.nc").read_bytes()
     (tmp_path / "folder.nc").mkdir()
     cases = {"missing.nc": None, "folder.nc": None, "empty.nc": b"", "text.nc": b"depth,force\n1,2\n"}

@@ -6,7 +6,6 @@ import pytest
 import viscorough
 from support.contract import refused
 from support.tables import read_table
-from viscorough.io import netcdf
 from viscorough.io.datasets import read_dataset
 
 DISC = viscorough.self_affine_disc(0.8, 17, rms=1e-6, diameter=1e-4, seed=1)
@@ -32,7 +31,7 @@ def test_other_suffixes_are_refused_and_no_file_is_left(tmp_path, kind, name):
 
 def test_suffixes_may_be_in_any_case(tmp_path):
     viscorough.save(CURVE, tmp_path / "result.NC")
-    assert netcdf.read(tmp_path / "result.NC").variables["depth"].values.tolist() == CURVE.depth.tolist()
+    assert read_dataset(tmp_path / "result.NC").variables["depth"].values.tolist() == CURVE.depth.tolist()
     viscorough.save(MOTION, tmp_path / "result.CSV")
     table, _ = read_table(tmp_path / "result.CSV")
     np.testing.assert_array_equal(table["depth"], MOTION.depth)

@@ -10,7 +10,6 @@ from support.curves import random_curve
 from support.tables import read_table
 from viscorough.io import tables
 from viscorough.io.curves import curve_to_content
-from viscorough.io.netcdf import Content, Variable
 
 
 @pytest.fixture
@@ -20,7 +19,8 @@ def path(tmp_path):
 
 def test_table_is_plain_csv_with_units_in_its_header(path):
     curve = random_curve()
-    tables.write(curve_to_content(curve).with_attributes(heights='a "ψ"\n#.npy'), path)
+    variables, attributes = curve_to_content(curve)
+    tables.write(path, variables, attributes | {"heights": 'a "ψ"\n#.npy'})
     table, units = read_table(path)
     for name, values in table.items():
         np.testing.assert_array_equal(values, getattr(curve, name))
@@ -34,14 +34,14 @@ def test_table_is_plain_csv_with_units_in_its_header(path):
 
 def test_missing_values_are_empty_fields(path):
     attributes = {"long_name": "velocity", "units": "m s-1"}
-    columns = {name: Variable(("level",), np.array([1.5, np.nan]), attributes) for name in "vw"}
-    tables.write(Content(columns, {}), path)
+    columns = {name: (("level",), np.array([1.5, np.nan]), attributes) for name in "vw"}
+    tables.write(path, columns, {})
     assert path.read_text(encoding="utf-8").endswith("v (m s-1),w (m s-1)\n1.5,1.5\n,\n")
 
 
 def test_maps_are_refused_as_tables(path):
     attributes = {"long_name": "height", "units": "m"}
-    content = Content({"heights": Variable(("y", "x"), np.zeros((2, 2)), attributes)}, {})
+    heights = {"heights": (("y", "x"), np.zeros((2, 2)), attributes)}
     with refused(r"no table of one dimension; a NetCDF file \(\.nc\) is needed"):
-        tables.write(content, path)
+        tables.write(path, heights, {})
     assert not path.exists()

@@ -7,7 +7,7 @@ import pytest
 
 from support.workflow import load_script, read_settings
 from viscorough.contact.loading_path import indent
-from viscorough.io import netcdf
+from viscorough.io.datasets import read_dataset
 from viscorough_study.ensembles.curve_files import read_curves
 from viscorough_study.ensembles.discs import ensemble_disc
 from viscorough_study.ensembles.flat_punch import punch_stiffness
@@ -25,7 +25,7 @@ def curves_of(kind, folder, batch):
     else:
         load_script("generate_discs").main(folder / "surfaces.nc", ensembles=batch, seed=7)
         load_script("indent_surfaces").main(folder / "surfaces.nc", folder / "curves.nc", indentation=INDENTATION)
-    return {name: variable.values for name, variable in netcdf.read(folder / "curves.nc").variables.items()}
+    return {name: variable.values for name, variable in read_dataset(folder / "curves.nc").variables.items()}
 
 
 @pytest.mark.parametrize("kind", ["discs", "lines"])
@@ -51,10 +51,10 @@ def test_dimensionless_discs_have_no_unit_and_give_no_warning(tmp_path):
     (ensemble,) = cases.batch_ensembles(cases.disc_cases(settings)["h04000_roll_off"], "0000-0001")
     with warnings.catch_warnings(action="error"):
         curves_of("discs", tmp_path, [ensemble | {"elements": 17}])
-    variables = netcdf.read(tmp_path / "curves.nc").variables
+    variables = read_dataset(tmp_path / "curves.nc").variables
     assert np.nanmax(variables["depth"].values) > variables["diameter"].values, "the depth is that of ordinary discs"
     lengths = ("depth", "stiffness", "spacing", "diameter", "rms_disc", "rms_square")
-    assert {variables[name].attributes["units"] for name in lengths} == {"1"}
+    assert {variables[name].attrs["units"] for name in lengths} == {"1"}
 
 
 def test_first_curves_of_every_ensemble_extend_further(tmp_path):
@@ -97,6 +97,6 @@ def test_curve_is_computed_from_the_exact_surface(tmp_path):
         load_script("indent_surfaces").main(*files, indentation=INDENTATION)
         until_force = 4 * max(known["disc"], known.get("square", 0.0)) * 33.0 * INDENTATION["until_x"]
         curve = indent(disc, tolerance=1e-3, until_fraction=1.0, until_force=until_force)
-        made = netcdf.read(files[1]).variables
+        made = read_dataset(files[1]).variables
         np.testing.assert_array_equal(made["force"].values[0], curve.force)
         np.testing.assert_array_equal(made["stiffness"].values[0], curve.stiffness)

@@ -22,7 +22,7 @@ def job(monkeypatch):
 def write(path):
     """Write a file of the kind that its suffix says, with the functions of the scripts."""
     if path.suffix == ".nc":
-        netcdf.write(netcdf.Content({}, made_with.made_with_text()), path)
+        netcdf.write(path, {}, made_with.made_with_text())
     elif path.suffix == ".csv":
         write_table(pd.DataFrame({"beta": [0.5]}), path, columns={"beta": ("exponent", "1")}, title="Fits")
     elif path.suffix in (".png", ".pdf"):

@@ -28,7 +28,7 @@ def plot_surfaces(examples):
         axes.imshow(_relief(heights, colors), extent=extent, origin="lower", interpolation="nearest")
         axes.set(title=f"$H={hurst:g}$", xlabel="$x/L$", xticks=(-0.5, 0, 0.5), yticks=(-0.5, 0, 0.5))
     bar = figure.colorbar(colors, ax=panels, location="bottom", shrink=0.5, aspect=40, pad=0.03, extend="both")
-    bar.set_label("height$/h$, on one scale for all discs (brighter is higher)")
+    bar.set_label("height$/h$ (brighter is higher)")
     return figure
 
 

@@ -27,9 +27,9 @@ from viscorough.results.contact_maps import Contact as Contact
 from viscorough.results.loading_curve import LoadingCurve as LoadingCurve
 from viscorough.results.motion import Motion as Motion
 from viscorough.surfaces.indenter import Indenter as Indenter
+from viscorough.surfaces.lines import self_affine_line as self_affine_line
 from viscorough.surfaces.preparation import prepare as prepare
 from viscorough.surfaces.self_affine import self_affine_disc as self_affine_disc
-from viscorough.surfaces.self_affine import self_affine_line as self_affine_line
 from viscorough.viscous.estimate import estimate as estimate
 from viscorough.viscous.integration.march import march as march
 from viscorough.viscous.kinetics import kinetics as kinetics

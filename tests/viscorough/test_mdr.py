@@ -9,7 +9,8 @@ from hypothesis.extra.numpy import arrays
 from support.contract import refused
 from viscorough.mdr import line_of_map, line_of_surface, reduce, reduce_heights
 from viscorough.surfaces.indenter import Indenter
-from viscorough.surfaces.self_affine import cut_disc, self_affine_line, self_affine_square
+from viscorough.surfaces.lines import self_affine_line
+from viscorough.surfaces.self_affine import cut_disc, self_affine_square
 
 
 def assert_exact(curve, line):

@@ -55,7 +55,8 @@ def generate(
 
     from viscorough.basics import units
     from viscorough.io.heights import surface_to_content
-    from viscorough.surfaces import self_affine
+    from viscorough.surfaces.lines import self_affine_line
+    from viscorough.surfaces.self_affine import self_affine_disc
 
     files.check_output(output)
     unit = unit if unit == units.UNKNOWN else units.length_unit(unit)
@@ -63,10 +64,10 @@ def generate(
     long_waves = {"roll_off_wavelength": roll_off, "roll_off_level": float(plateau)}
     how: dict[str, Any] = {"rms": h, "length_unit": "m" if unit != units.UNKNOWN else unit, "seed": seed, **long_waves}
     if elements:
-        made = self_affine.self_affine_disc(hurst, elements, diameter=length, **how)
+        made = self_affine_disc(hurst, elements, diameter=length, **how)
         text = f"disc of {elements} elements across, {made.elements} elements"
     elif points:
-        made = self_affine.self_affine_line(hurst, points, length=length, **how)
+        made = self_affine_line(hurst, points, length=length, **how)
         text = f"line of {points} points"
     h, length = files.in_unit(h, unit), files.in_unit(length, unit)
     about = {"hurst": hurst, "rms": h, "diameter": length, "seed": seed} | (long_waves if roll_off else {})

@@ -1,4 +1,7 @@
-"""Generate realizations of self-affine lines; quantities that do not depend on the realization are computed once.
+"""Generate self-affine lines with random heights; quantities that do not depend on the realization are computed once.
+
+A line has the power spectral density C1D = π q C2D of a surface (`self_affine`) at the wavenumber q, so that its rms
+height is the same. Hence C1D(q) ∝ q^(-(2H+1)) (paper, Eq. 13), with the Hurst exponent H.
 
 Heights are the Fourier transform of random waves (see `line_waves`). For an even number n of points in single
 precision, neighbouring points are combined into m = n/2 complex numbers z_j, j = 0, 1, ..., m - 1. Their spectrum is
@@ -18,8 +21,9 @@ from numpy.typing import DTypeLike
 
 from viscorough.basics import memory
 from viscorough.basics.arrays import positive, whole_number
-from viscorough.basics.types import Array, Integers, Seed
+from viscorough.basics.types import Array, FloatType, Integers, Seed
 from viscorough.surfaces import line_waves, spectrum
+from viscorough.surfaces.indenter import Indenter
 
 # The rms height must be at least this factor above the smallest number of the floating-point type, and at least this
 # factor below the largest number.
@@ -31,10 +35,73 @@ _BLOCK = 16384
 _COPIES, _MOST_COPIES = 2.6, 17
 
 
+def self_affine_line(
+    hurst: float,
+    points: int,
+    *,
+    rms: float = 1.0,
+    length: float = 1.0,
+    roll_off_wavelength: float | None = None,
+    roll_off_level: float = 0.0,
+    amplitudes: str = "random",
+    length_unit: str = "1",
+    seed: Seed,
+    dtype: FloatType = np.float32,
+) -> Indenter:
+    """Generate a periodic self-affine line for the method of dimensionality reduction (MDR).
+
+    The power spectral density at the wavenumber q is C1D ∝ q^(-(2H+1)).
+
+    Parameters
+    ----------
+    hurst : float
+        Hurst exponent H, from 0 to 1 [1].
+    points : int
+        Number of points per period, at least 2.
+    rms : float, optional
+        Standard deviation h of the heights, exact in every realization [length].
+    length : float, optional
+        Length L of the line, which is also its period [length]; the spacing is L/points.
+    roll_off_wavelength : float, optional
+        Longest wavelength of the power law, as a multiple of L; by default all waves follow the power law.
+    roll_off_level : float, optional
+        Spectral density of waves longer than the roll-off wavelength, relative to the density at the roll-off
+        wavelength. 0: there are no longer waves; 1: all longer waves have this density.
+    amplitudes : str, optional
+        "random" for complex Gaussian amplitudes, "fixed" for amplitudes equal to the square root of the spectrum.
+    length_unit : str, optional
+        "m" if numbers are in SI units, "1" if they are in consistent units that are not known, the default.
+    seed : int or SeedSequence
+        Seed of the random numbers. The same seed gives the same realization.
+    dtype : numpy dtype or name, optional
+        Floating-point type of the heights, float32 or float64. For the same seed, both have the same heights except for
+        rounding.
+
+    Returns
+    -------
+    Indenter
+        Line of shape (points,) with mean 0.
+
+    Raises
+    ------
+    ValueError
+        For values out of range.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> viscorough.self_affine_line(0.7, 1000, rms=0.1, seed=1).heights.shape
+    (1000,)
+    """
+    roll_off: dict[str, Any] = {"roll_off_wavelength": roll_off_wavelength, "roll_off_level": roll_off_level}
+    lines = SelfAffineLines(hurst, points, rms=rms, length=length, amplitudes=amplitudes, dtype=dtype, **roll_off)
+    return Indenter(lines.heights(seed), lines.spacing, length_unit=length_unit)
+
+
 class SelfAffineLines:
     """Generator of periodic self-affine lines with the same spectrum and different random waves.
 
-    hurst, points, rms, length, dtype : arguments of `self_affine.self_affine_line`
+    hurst, points, rms, length, dtype : arguments of `self_affine_line`
     waves : further arguments of `self_affine_line`, by name: roll_off_wavelength, roll_off_level and amplitudes
 
     The attribute `spacing` is the distance between neighbouring points, length/points [length].

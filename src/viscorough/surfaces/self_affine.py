@@ -1,10 +1,9 @@
-"""Generate self-affine discs, squares and lines with random heights.
+"""Generate self-affine discs and squares with random heights.
 
-The power spectral densities follow the paper (Sec. III). For a surface with the Hurst exponent H, the density at the
-wavenumber q is C2D(q) ∝ q^(-2(H+1)). A line has the density C1D = π q C2D, so that its rms height is the same. Hence
-C1D(q) ∝ q^(-(2H+1)) (Eq. 13). Spectra are isotropic and have no zero mode. Wavelengths range from the period of the
-surface down to two spacings, the Nyquist wavelength. The spectra need no prefactor, because every realization is scaled
-to the requested rms height.
+The power spectral density follows the paper (Sec. III). For a surface with the Hurst exponent H, the density at the
+wavenumber q is C2D(q) ∝ q^(-2(H+1)). Spectra are isotropic and have no zero mode. Wavelengths range from the period of
+the surface down to two spacings, the Nyquist wavelength. The spectra need no prefactor, because every realization is
+scaled to the requested rms height.
 """
 
 from typing import Any
@@ -14,10 +13,9 @@ from ducc0 import fft
 
 from viscorough.basics import memory
 from viscorough.basics.arrays import positive, real_numbers, whole_number
-from viscorough.basics.types import Array, FloatType, Seed
+from viscorough.basics.types import Array, Seed
 from viscorough.surfaces import spectrum
 from viscorough.surfaces.indenter import Indenter
-from viscorough.surfaces.lines import SelfAffineLines
 
 # Memory in bytes that must be available for each point of a square. It is three times the memory of all arrays.
 _BYTES_PER_POINT = 100
@@ -209,66 +207,3 @@ def cut_disc(square: Array, elements_across: int) -> Array:
         raise ValueError(f"square: the map must have at least {n} x {n} points, its shape is {square.shape}")
     twice = 2 * np.arange(n) - (n - 1)  # twice the coordinate from the centre, a whole number for any n
     return np.where(twice[:, None] ** 2 + twice**2 <= (n - 1) ** 2, square[:n, :n], np.nan)
-
-
-def self_affine_line(
-    hurst: float,
-    points: int,
-    *,
-    rms: float = 1.0,
-    length: float = 1.0,
-    roll_off_wavelength: float | None = None,
-    roll_off_level: float = 0.0,
-    amplitudes: str = "random",
-    length_unit: str = "1",
-    seed: Seed,
-    dtype: FloatType = np.float32,
-) -> Indenter:
-    """Generate a periodic self-affine line for the method of dimensionality reduction (MDR).
-
-    The power spectral density at the wavenumber q is C1D ∝ q^(-(2H+1)).
-
-    Parameters
-    ----------
-    hurst : float
-        Hurst exponent H, from 0 to 1 [1].
-    points : int
-        Number of points per period, at least 2.
-    rms : float, optional
-        Standard deviation h of the heights, exact in every realization [length].
-    length : float, optional
-        Length L of the line, which is also its period [length]; the spacing is L/points.
-    roll_off_wavelength : float, optional
-        Longest wavelength of the power law, as a multiple of L; by default all waves follow the power law.
-    roll_off_level : float, optional
-        Spectral density of waves longer than the roll-off wavelength, relative to the density at the roll-off
-        wavelength. 0: there are no longer waves; 1: all longer waves have this density.
-    amplitudes : str, optional
-        "random" for complex Gaussian amplitudes, "fixed" for amplitudes equal to the square root of the spectrum.
-    length_unit : str, optional
-        "m" if numbers are in SI units, "1" if they are in consistent units that are not known, the default.
-    seed : int or SeedSequence
-        Seed of the random numbers. The same seed gives the same realization.
-    dtype : numpy dtype or name, optional
-        Floating-point type of the heights, float32 or float64. For the same seed, both have the same heights except for
-        rounding.
-
-    Returns
-    -------
-    Indenter
-        Line of shape (points,) with mean 0.
-
-    Raises
-    ------
-    ValueError
-        For values out of range.
-
-    Examples
-    --------
-    >>> import viscorough
-    >>> viscorough.self_affine_line(0.7, 1000, rms=0.1, seed=1).heights.shape
-    (1000,)
-    """
-    roll_off: dict[str, Any] = {"roll_off_wavelength": roll_off_wavelength, "roll_off_level": roll_off_level}
-    lines = SelfAffineLines(hurst, points, rms=rms, length=length, amplitudes=amplitudes, dtype=dtype, **roll_off)
-    return Indenter(lines.heights(seed), lines.spacing, length_unit=length_unit)

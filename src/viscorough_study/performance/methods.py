@@ -15,7 +15,7 @@ from viscorough import reference
 from viscorough.basics.errors import AccuracyWarning
 from viscorough.contact.loading_path import indent
 from viscorough.mdr import reduce
-from viscorough.surfaces.self_affine import self_affine_line
+from viscorough.surfaces.lines import self_affine_line
 from viscorough.viscous.integration.events import newtonian_events
 from viscorough_study.performance.explicit_steps import explicit_steps
 

@@ -21,7 +21,8 @@ from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
 from viscorough.law.calibrated_law import law_covers, penetration_law
 from viscorough.mdr import reduce
-from viscorough.surfaces.self_affine import self_affine_disc, self_affine_line
+from viscorough.surfaces.lines import self_affine_line
+from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.performance import timing
 from viscorough_study.run.kernels import compile_kernels
 from viscorough_study.run.names import CONTACT, GRID, LAW, MDR

@@ -22,7 +22,7 @@ from viscorough.media.creep_response import creep_response
 from viscorough.media.kinds import Newtonian
 from viscorough.media.load import Load
 from viscorough.surfaces.indenter import Indenter
-from viscorough.surfaces.self_affine import self_affine_line
+from viscorough.surfaces.lines import self_affine_line
 from viscorough.viscous.integration.events import newtonian_events
 from viscorough.viscous.integration.march import march
 from viscorough.viscous.kinetics import kinetics

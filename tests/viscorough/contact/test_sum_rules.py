@@ -14,7 +14,8 @@ from support.influence import influence_matrix
 from viscorough import Indenter, indent, reduce
 from viscorough.contact.complete_contact import CompleteContact, complete_contact
 from viscorough.reference import cone, sphere
-from viscorough.surfaces.self_affine import cut_disc, self_affine_disc, self_affine_line, self_affine_square
+from viscorough.surfaces.lines import self_affine_line
+from viscorough.surfaces.self_affine import cut_disc, self_affine_disc, self_affine_square
 
 SMALL = 18  # elements across, at most 400 in all: every contact event is a level
 ROUGH = cut_disc(self_affine_square(0.1, SMALL, seed=4), SMALL)

@@ -11,7 +11,8 @@ import pytest
 from scipy import stats
 
 from support.contract import refused
-from viscorough.surfaces.self_affine import cut_disc, self_affine_disc, self_affine_line, self_affine_square
+from viscorough.surfaces.lines import self_affine_line
+from viscorough.surfaces.self_affine import cut_disc, self_affine_disc, self_affine_square
 from viscorough_study.run.seeds import realization_seed
 
 

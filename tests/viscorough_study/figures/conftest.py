@@ -6,7 +6,8 @@ from support.figures import COMBINATIONS, ELEMENTS, HURST, X, case_of
 from support.study import aggregate, evidence, pool_of
 from viscorough.contact.loading_path import indent
 from viscorough.mdr import reduce
-from viscorough.surfaces.self_affine import self_affine_disc, self_affine_line
+from viscorough.surfaces.lines import self_affine_line
+from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.ensembles.pool import ensembles
 
 

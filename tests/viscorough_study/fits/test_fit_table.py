@@ -8,7 +8,7 @@ from support.study import LIMITS, SHOWN, aggregate, ensemble_of, pool_of, three_
 from viscorough import reference
 from viscorough.law import calibrated_law
 from viscorough.mdr import reduce
-from viscorough.surfaces.self_affine import self_affine_line
+from viscorough.surfaces.lines import self_affine_line
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.conventions import FITTED, GAMMA, select, zeta_scale
 from viscorough_study.fits.fit_table import COLUMNS, calibrated, fit_rows

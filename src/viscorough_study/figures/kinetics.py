@@ -45,7 +45,7 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
         time = 4 * curve.x[shown] * viscosity * rms * diameter / force
         raw.plot(time, curve.velocity[shown] * rms / time, label=case, color=style.PALE, **THIN)
     number = style.realizations_text(ensembles)
-    collapsed.set_title(f"(a) {len(ensembles)} curves without units, each a mean over {number} discs")
+    collapsed.set_title(f"(a) {len(ensembles)} scaled curves, each a mean over {number} discs")
     collapsed.set(xscale="log", yscale="log", xlabel=r"$X = Ft/(4\eta hL)$", ylabel="$vt/h$")
     abscissa_of_paper = collapsed.secondary_xaxis("top", functions=(lambda x: 4 * x, lambda x: x / 4))
     abscissa_of_paper.set_xlabel(r"$Ft/(\eta hL)$, as in the paper")

@@ -64,12 +64,13 @@ def tex(text):
 
 
 def formulas(text):
-    """Return plain text as HTML in which the formulas of `TYPESET` are typeset, and no line breaks at " = "."""
+    """Return plain text as HTML with the formulas of `TYPESET` typeset, `code` marked, and no line breaks at " = "."""
     parts = re.split("(" + "|".join(map(re.escape, TYPESET)) + ")", text)
-    return Markup("").join(
+    typeset = Markup("").join(
         tex(TYPESET[part]) if part in TYPESET else part.replace(" = ", "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}")
         for part in parts
     )
+    return Markup(re.sub("`(.*?)`", r"<code>\1</code>", typeset))
 
 
 def begun(text):

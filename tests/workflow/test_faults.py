@@ -43,23 +43,6 @@ def test_file_without_a_readable_record_is_made_again(finished, damage):
     assert plan(finished, *TEST, "--", TARGET)["reduce_lines"] == 1
 
 
-def test_environment_without_the_package_is_reported_in_one_line(unmade):
-    """So it is between the two steps of `make environment`."""
-    script = (
-        "import os, sys\n"
-        "sys.path[:] = [path for path in sys.path if not os.path.isdir(os.path.join(path, 'viscorough'))]\n"
-        "from snakemake.cli import main\n"
-        "main(['--dry-run'])\n"
-    )
-    variables = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-    command = [sys.executable, "-c", script]
-    done = subprocess.run(command, cwd=unmade, env=variables, capture_output=True, text=True, check=False)
-    assert done.returncode == 1
-    message = f"Error: the package viscorough is not installed for {sys.executable}; run `make environment` in {unmade}"
-    assert done.stderr.splitlines()[-1].startswith(message)
-    assert "Traceback" not in done.stderr
-
-
 @pytest.mark.parametrize("kind", ["lines", "discs"])
 def test_batch_outside_of_the_settings_is_refused(unmade, kind):
     """Such a batch would hold fewer realizations than its name says."""

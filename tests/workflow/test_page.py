@@ -3,7 +3,6 @@
 import base64
 import re
 from html import unescape
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -11,11 +10,11 @@ import yaml
 
 from support.code_blocks import run_python, run_shell
 from support.page import BROWSER, Page, number_in, opened
-from support.workflow import ROOT, TABLES, TEST, merged, read_settings, snakemake
+from support.workflow import ROOT, TABLES, merged, read_settings
 from viscorough.surfaces.self_affine import self_affine_disc
 from viscorough_study.page.content import as_yaml
 from viscorough_study.run.settings import changed_settings, check_settings
-from viscorough_study.run.tables import read_table, split_table, write_table
+from viscorough_study.run.tables import read_table
 from viscorough_study.verdicts.claims import counted_verdicts, verdicts_of
 
 LARGEST = 3e6  # bytes
@@ -79,13 +78,6 @@ def test_page_names_the_settings_file_and_every_setting_that_it_changes(html):
         ]
 
 
-def test_commands_on_page_exist(html):
-    commands = re.findall(r"<code>(make [\w -]+)</code>", html)
-    assert len(set(commands)) > 3
-    for command in commands:
-        run_shell(command)
-
-
 def test_page_loads_nothing_from_elsewhere(html, page):
     assert len(html.encode()) < LARGEST
     assert not {"link", "iframe", "base"} & {tag for tag, _ in page.elements}
@@ -135,20 +127,6 @@ def test_page_marks_a_trial_run_and_shows_no_raw_values(page):
     assert not re.search(r"\{['\"]|spawn_key|None|nan\b|dtype|<[a-z]", page.text.replace("nan marks points", ""))
 
 
-def test_page_lists_all_versions_that_occur_in_the_results(finished):
-    """As after an upgrade of a package between two jobs."""
-    pages = [(finished / "results/index.html").read_text(encoding="utf-8")]
-    path = finished / "results/tables/claims.csv"
-    header, rows = split_table(path)[0], read_table(path)
-    header["made_with"]["versions"]["numpy"].append("99.0")
-    columns = {name: (column["long_name"], column["units"]) for name, column in header.pop("columns").items()}
-    write_table(rows, path, columns=columns, title=header.pop("title"), **header)
-    snakemake(finished, *TEST)
-    pages.append((finished / "results/index.html").read_text(encoding="utf-8"))
-    assert [bool(re.search(r"numpy [\d.]+ and 99\.0", page)) for page in pages] == [False, True]
-    assert ["Several versions" in page for page in pages] == [False, True]
-
-
 def test_every_claim_has_an_entry_with_its_verdict_and_links_lead_to_it(html, page, tables):
     verdicts = verdicts_of(tables["claims"])
     assert len(verdicts) > 20
@@ -159,17 +137,6 @@ def test_every_claim_has_an_entry_with_its_verdict_and_links_lead_to_it(html, pa
         assert unescape(re.sub("</?var>", "", shown)) == verdict.text
     linked = {attributes["href"].removeprefix("#") for attributes in page.attributes("a") if "href" in attributes}
     assert set(verdicts) - {"identities"} <= linked
-
-
-def test_page_can_be_used_with_the_keyboard(page):
-    tags = [tag for tag, _ in page.elements]
-    assert tags.index("a") < tags.index("nav")  # the link that skips the contents
-    scrolled = [attributes for _, attributes in page.elements if attributes.get("class") == "scroll"]
-    assert len(scrolled) == tags.count("table") > 5
-    assert all(attributes["tabindex"] == "0" and attributes["aria-label"] for attributes in scrolled)
-    headings = [int(tag[1]) for tag in tags if re.fullmatch("h[1-6]", tag)]
-    assert headings[0] == 1
-    assert all(later <= earlier + 1 for earlier, later in pairwise(headings))
 
 
 @pytest.mark.skipif(BROWSER is None, reason="no Chromium is installed")

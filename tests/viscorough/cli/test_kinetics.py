@@ -89,17 +89,6 @@ def test_depth_histories_load_hold_unload_and_lift(here, curve, capsys, times):
     assert "and force 0 at time 4" in capsys.readouterr().out
 
 
-def test_columns_of_a_history_without_headings_are_chosen(here, curve, capsys):
-    (here / "many.csv").write_text("0,9,0,0\n0,9,0.2,1\n")
-    line = f"{KINETICS} --force-history many.csv --viscosity 30 --columns"
-    assert run(f"{line} time=4,force=3") == 0
-    expected = kinetics(curve, Load([0, 1], force=[0, 0.2]), Newtonian(30.0))
-    np.testing.assert_array_equal(values("kin.nc")["depth"], expected.depth)
-    for columns in ("time=4,speed=2", "time=,force=2", "time=4,time=3", "time=4,force=F"):
-        assert run(f"{line} {columns}") == 2
-        assert "is not like time=1,force=3, with numbers of columns from 1" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize(
     ("options", "expected"),
     [

@@ -31,13 +31,6 @@ def curve_of(capsys, arguments, *warnings):
     return load_curve("curve.nc"), attributes
 
 
-def test_warning_about_a_surface_names_its_remedy(capsys):
-    np.save("tilted.npy", ROUGH + 3 * X - 2 * Y)
-    tilted = "tilted.npy: the map is tilted: a plane through it rises by 48"
-    _, attributes = curve_of(capsys, f"tilted.npy {SPACING} {DEPTHS}", tilted, "slope")
-    assert "--detrend plane removes it" in attributes["warnings"]
-
-
 def test_channel_and_preparation_are_passed_on_and_recorded(capsys):
     marked = -ROUGH - 3 * X + 2 * Y
     marked[0, :3], marked[8, 8] = -9999, np.nan

@@ -43,17 +43,6 @@ def test_lower_terrace_outside_the_box_joins_the_contact(tolerance):
     np.testing.assert_allclose([contact.depth for contact in contacts], curve.depth, rtol=tolerance)
 
 
-def test_residual_of_a_correction_includes_overlap_outside_the_box():
-    row, column = np.mgrid[:33, :33] - 16
-    gap = 1e-3 + 1e-9 * (row**2 + column**2)
-    steps = Indenter(-np.where(column > 0, 1e-9 * (row**2 + column**2), gap), 1.0)
-    solver = ContactSolver(steps, 1e-3, GRID, largest_depth=0.9e-3)
-    contact = solver.advance(solver.unloaded_state(), 0.9e-3)
-    depth, lowest = 1.1e-3 / solver.units.length, steps.initial_gap[column <= 0].min()
-    settled = solver.settled(contact, depth, contact.pressure_sum + contact.tangent_sum * 0.2e-3 / solver.units.length)
-    assert settled.residual == pytest.approx(1 - lowest / 1.1e-3, rel=1e-3)
-
-
 @pytest.mark.parametrize(("share", "is_near"), [(0.9, True), (-0.9, True), (1.1, False), (-1.1, False)])
 def test_last_correction_changes_the_stiffness_within_the_tolerance(share, is_near):
     """The stiffness at a force comes from the last solved contact, although a correction of the depth changes it."""

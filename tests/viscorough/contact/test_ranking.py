@@ -7,7 +7,6 @@ import pytest
 
 from viscorough import Indenter, SolverOptions, contact_at, indent
 from viscorough.contact.halfspace import tiles
-from viscorough.contact.options import DEFAULT
 from viscorough.contact.ranking import Ranking
 from viscorough.surfaces.self_affine import self_affine_square
 
@@ -70,14 +69,6 @@ def test_ranking_step_by_step_equals_ranking_at_once(indenter):
             np.testing.assert_array_equal(getattr(elements, name), getattr(everything, name)[:ranked])
 
 
-@pytest.mark.parametrize("across", [1000, 1024, 4096])
-def test_number_of_elements_ranked_first_does_not_grow_with_the_map(across):
-    x = np.linspace(-1, 1, across, dtype="f4")
-    steps = Ranking(Indenter(-np.add.outer(x**2, x**2), 1.0))
-    steps.rank_highest()
-    assert DEFAULT.rank_first / 2 < steps.elements.initial_gap.size < 2 * DEFAULT.rank_first
-
-
 @pytest.mark.parametrize("given", [{"depth": [0.02, 0.3, 1.0]}, {"force": [0.01, 1.0, 30.0]}])
 def test_contacts_do_not_depend_on_the_number_of_ranked_elements(indenter, given, small_tiles):
     tolerance = 1e-6
@@ -91,15 +82,6 @@ def test_contacts_do_not_depend_on_the_number_of_ranked_elements(indenter, given
         np.testing.assert_allclose(contact.gap, expected.gap, rtol=0, atol=2 * tolerance * contact.depth)
         np.testing.assert_array_equal(np.isnan(contact.pressure), np.isnan(indenter.heights))
         assert np.nanmin(contact.gap) >= -tolerance * contact.depth
-
-
-def test_force_on_the_highest_terrace_alone_is_met(small_tiles):
-    """The first guess, from blocks, is below the depth at which the next terrace touches."""
-    terraces = np.floor(3 * np.random.default_rng(2).random((12, 12)))
-    highest = contact_at(Indenter(np.where(terraces == 2, 0.0, np.nan), 1.0), force=1e-3, options=FEW_RANKED)
-    contact = contact_at(Indenter(terraces, 1.0), force=1e-3, options=FEW_RANKED)
-    assert contact.contact_count == highest.contact_count
-    assert contact.depth == pytest.approx(highest.depth, rel=1e-3)
 
 
 def test_curves_do_not_depend_on_the_number_of_ranked_elements(indenter, small_tiles):

@@ -95,13 +95,6 @@ def test_what_cannot_be_prepared_is_refused():
 # ---- doubts
 
 
-def test_random_discs_and_smooth_bodies_raise_no_doubt():
-    for seed, hurst in enumerate((0.1, 0.5, 0.9)):
-        assert doubts(self_affine_disc(hurst, 65, seed=seed)) == []
-    for body in (-np.hypot(X, Y), -(np.hypot(X, Y) ** 2) / 99, np.zeros((ROWS, COLUMNS)), np.rint(ROUGH)):
-        assert doubts(indenter(body)) == []
-
-
 def test_tilt_is_told_with_numbers():
     rough = ROUGH + 2.0 * X
     (text,) = doubts(indenter(rough))

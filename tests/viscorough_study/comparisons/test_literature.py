@@ -4,8 +4,6 @@ import numpy as np
 import pandas as pd
 import pytest
 import yaml
-from scipy.integrate import quad
-from scipy.special import erf
 
 from support.study import HURST, ROOT, SHOWN, evidence
 from viscorough import reference
@@ -66,21 +64,3 @@ def test_table_compares_u0_with_published_values_and_perssons_law(table):
 
 
 # ---- Persson's law
-
-
-@pytest.mark.parametrize(("hurst", "band"), [(0.6, 50.0), (0.3, 400.0)])
-def test_persson_pressure_is_the_derivative_of_the_elastic_energy(hurst, band):
-    """−dU/dp over p tends to u₀/p at small pressures; units: E* = 1, q₀ = 1."""
-    power = 2 * hurst
-    h = np.sqrt(2 * np.pi * (1 - band**-power) / power)  # for C = q^(−2−2H)
-
-    def energy(p):
-        def density(q):
-            w = (np.pi * (q ** (2 - power) - 1) / (2 - power)) ** -0.5
-            return q ** (-power) * erf(w * p)
-
-        return np.pi / 2 * quad(density, 1, band, limit=400)[0]
-
-    p = 1e-3
-    u0 = (energy(1.01 * p) - energy(0.99 * p)) / (0.02 * p)
-    assert persson_u0(hurst, band) == pytest.approx(u0 / h, rel=1e-3)

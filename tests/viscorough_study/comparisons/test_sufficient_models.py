@@ -38,14 +38,6 @@ def test_the_worst_hurst_exponent_decides_on_error_and_time():
     assert rows.loc[0.2, "hurst"] == "0.4, 0.8"
 
 
-def test_model_without_an_error_at_a_hurst_exponent_does_not_count():
-    table = grids(coarse=(0.3, 0.3))
-    law = (table["model"] == "law") & (table["hurst"] == 0.8)
-    for known, model in ((0.1, "viscorough.penetration_law"), (np.nan, "viscorough.indent")):
-        rows = chosen(table.assign(error=table["error"].mask(law, known).mask((table["model"] == "law") & ~law, 0.1)))
-        assert rows.loc[0.2, "model"] == model
-
-
 def test_means_are_answered_by_the_model_without_cost_where_it_suffices():
     rows = [(0.4, "law", np.nan, 0, 0.0, 0.03), (0.4, "grid", 65.0, 64, 2.0, 0.02), (0.4, "grid", 65.0, 1, 0.1, 0.3)]
     means = pd.DataFrame(rows, columns=["hurst", "model", "across", "surfaces", "processor_s", "error"])

@@ -61,11 +61,11 @@ def kinetics(
     KIN.nc and the closing line state an error, too: the error of the velocity if the force is given, or the error of
     the force at the largest depth if the depth is given.
 
-    MEDIUM.yaml is one mapping with the kind of the medium and its parameters. The kinds are newtonian (viscosity),
-    maxwell and kelvin_voigt (shear_modulus, viscosity), standard_linear_solid (instantaneous_modulus, relaxed_modulus,
-    relaxation_time), prony (relaxed_modulus, moduli, relaxation_times) and springpot (modulus, exponent). Moduli are
-    shear moduli. Young's moduli E = 3 G may be given instead, as young_modulus, instantaneous_young_modulus,
-    relaxed_young_modulus or young_moduli; the key poisson may then state the Poisson ratio, by default 0.5.
+    MEDIUM.yaml is one mapping with the kind of the medium and its parameters, as {kind: maxwell, shear_modulus: 2 MPa,
+    viscosity: 1 kPa s}. The documentation has a table of all kinds (Theory, Viscoelastic media), and an unknown kind
+    or key is answered with those that are allowed. Moduli are shear moduli. Young's moduli E = 3 G may be given
+    instead, as young_modulus or relaxed_young_modulus; the key poisson may then state the Poisson ratio, by default
+    0.5.
 
     If the unit of length of the curve is known, forces are in N, moduli in Pa and viscosities in Pa s. They may also
     have another unit, as in --viscosity "2 kPa s" or in the heading t [ms],F [mN] of a force history. If the unit of

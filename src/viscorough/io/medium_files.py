@@ -7,6 +7,8 @@ with the same E(t)/(1 − ν²) (basics.elasticity).
 
 import contextlib
 import dataclasses
+import math
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -67,8 +69,8 @@ def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1") -> M
     mapping : the key `kind`, one of kinds.KINDS, and all parameters of this class. Shear moduli may be replaced by
         Young's moduli (`_young_key`); `poisson` is then an optional key
     length_unit : unit of length of the indenter. If it is known, plain moduli are in Pa, viscosities in Pa s and times
-        in s, and values may have units ("2 MPa"), except for a springpot. If it is "1", all values are plain numbers in
-        consistent units of the user's choice
+        in s, and values may have units ("2 MPa"). If it is "1", all values are plain numbers in consistent units of the
+        user's choice
 
     Raises a one-line ValueError for an unknown kind or key, missing keys, and values out of range.
     """
@@ -97,7 +99,7 @@ def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1") -> M
     parameters = {}
     for name in needed:
         key = young[name] if by_young and name in young else name
-        value = _value(key, mapping[key], None if kind == "springpot" else _unit_of(name), length_unit)
+        value = _value(key, mapping[key], _unit_of(name), length_unit)
         parameters[name] = _divided(value, divisors.get(name, 1.0))
     return medium(**parameters)
 
@@ -112,17 +114,21 @@ def _young_key(name: str) -> str:
 
 
 def _unit_of(name: str) -> str | None:
-    """Return the SI unit of a parameter; None for a parameter without a unit."""
-    if _is_modulus(name):
-        return "Pa"
-    return {"viscosity": "Pa s", "relaxation_time": "s", "relaxation_times": "s"}.get(name)
+    """Return the SI unit of a parameter; None if it has none, or none that is the same for every medium."""
+    if name == "viscosity":
+        return "Pa s"
+    if name.startswith("relaxation_time"):
+        return "s"
+    return "Pa" if _is_modulus(name) and name != "modulus" else None
 
 
 def _divided(value: Any, divisor: float) -> Any:
     """Divide numbers by a divisor; the class of the medium refuses all other values."""
     if isinstance(value, list):
         return [_divided(entry, divisor) for entry in value]
-    return value / divisor if isinstance(value, int | float) and not isinstance(value, bool) else value
+    if divisor == 1 or isinstance(value, bool) or not isinstance(value, int | float):
+        return value
+    return float(value) / divisor if abs(value) < sys.float_info.max else math.inf
 
 
 class _WithoutAliases(UniqueKeys):

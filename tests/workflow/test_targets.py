@@ -8,7 +8,7 @@ from viscorough_study.run.tables import read_table
 
 @pytest.mark.parametrize(
     ("name", "indent_surfaces", "reduce_lines"),
-    [("config", 4 * (2 + 1 + 1) + 2, 21), ("paper", 4 * (8 + 1 + 1) + 2, 101)],
+    [("config", 4 * (2 + 1 + 1) + 2, 11), ("paper", 4 * (8 + 1 + 1) + 2, 11 * 10)],
 )
 def test_large_scales_have_a_plan(unmade, name, indent_surfaces, reduce_lines):
     planned = plan(unmade, "--configfile", f"config/{name}.yaml")
@@ -25,7 +25,7 @@ def test_settings_are_found_from_any_folder(tmp_path):
     settings_file(tmp_path, "mine", hurst=[0.33])
     here = ("--snakefile", ROOT / "Snakefile", "--directory", tmp_path / "out")
     planned = plan(tmp_path, *here, "--configfile", "mine.yaml", "--", "curves")
-    assert planned == {"generate_discs": 4, "indent_surfaces": 4, "reduce_lines": 22}
+    assert planned == {"generate_discs": 4, "indent_surfaces": 4, "reduce_lines": 11}
     assert plan(tmp_path, *here, "--", "curves")["indent_surfaces"] == 4 * 4
 
 

@@ -9,7 +9,8 @@ several ensembles:
 
 - Side by side: a batch has the same realizations of all ensembles of the case. Combinations of force, viscosity,
   diameter and rms height at one Hurst exponent are batched in this way. Combinations 1 to 9 are one case and 10 to 19
-  the next case, so a tenth combination does not change the curves of the first nine.
+  the next case, so a tenth combination does not change the curves of the first nine. Lines of neighbouring Hurst
+  exponents are batched in this way, too, since most jobs would take less time than their start.
 - In sequence: a batch has realizations of one ensemble and then of the next. Discs on coarse grids are batched in this
   way, so that a job can hold many small discs.
 
@@ -147,14 +148,18 @@ def line_cases(settings):
     - The key `until_x` replaces the key `indentation`.
     - In an ensemble, the key `points` replaces the key `elements`, and there is no key `combination`.
     - In an ensemble, the value of the key `surface` contains arguments of self_affine_line.
+
+    Hurst exponents with the same first decimal, such as 0.40 and 0.45, share a case, whose batches are side by side.
     """
     lines, cases = settings["lines"], {}
+    base = {"pool": "lines", "group": "lines", "until_x": settings["curves"]["until_x"], "side_by_side": True}
+    base |= {"realizations": lines["realizations"], "batch": lines["batch"]}
     names = ("amplitudes", "roll_off_wavelength", "roll_off_level")
     surface = {name: settings["surface"][name] for name in names} | UNIT_LINE
     for hurst in _line_exponents(settings):
         line = _ensemble(hurst_id(hurst), seeds.line_key(hurst), surface | {"hurst": hurst}, lines)
-        until_x = settings["curves"]["until_x"]
-        cases[line["name"]] = _joint_case([line], lines["batch"], "lines", pool="lines", until_x=until_x)
+        case = cases.setdefault(hurst_id(math.floor(10 * hurst + 1e-9) / 10), base | {"ensembles": []})
+        case["ensembles"].append(line)
     return cases
 
 

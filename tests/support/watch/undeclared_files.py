@@ -45,7 +45,8 @@ def write_undeclared(job, opened):
     params = str(dict(job.params.items()))
     declared = {os.path.abspath(path) for path in (*job.input, *job.output, *job.log)}
     libraries = [sys.prefix, sys.base_prefix, "/proc", "/sys", "/dev", "/etc", "/usr", os.path.abspath(".snakemake")]
-    libraries += [os.path.abspath(folder) for folder in sys.path if folder]
+    # Snakemake puts the working directory, with all results, into sys.path.
+    libraries += [folder for folder in map(os.path.abspath, sys.path) if folder != os.getcwd()]
     with open(WRITTEN, "a", encoding="utf-8") as file:
         for path in sorted(opened - declared):
             if (

@@ -3,7 +3,7 @@
 import numpy as np
 
 from support.page import Page, number_in
-from viscorough_study.page.render import number, percent
+from viscorough_study.page.render import caption, number, percent
 from viscorough_study.page.results import Number
 from viscorough_study.run.readable import readable
 
@@ -28,3 +28,9 @@ def test_numbers_name_their_table_cell():
     assert count["data-counted"] == "not <b>"
     assert str(percent(Number(0.0131, "methods", "error", 0))).endswith(">1.31 %</data>")
     assert number(None) == number(Number(np.nan, "claims", "value", 0)) == "–"
+
+
+def test_docutils_settings_of_the_user_change_no_caption(tmp_path, monkeypatch):
+    (tmp_path / "docutils.conf").write_text("[parsers]\nsmart_quotes: yes\n")
+    monkeypatch.setenv("DOCUTILSCONFIG", str(tmp_path / "docutils.conf"))
+    assert caption('the "disc"', {})[0] == "<p>the &quot;disc&quot;</p>\n"

@@ -58,3 +58,19 @@ def test_versions_of_all_jobs_before_are_recorded(tmp_path, monkeypatch):
     assert versions["numpy"][-1] == "99.0"
     assert len(versions["numpy"]) == 2
     assert all_versions([None, {"versions": {"numpy": ["1"]}}, {}]) == {"numpy": ["1"]}
+
+
+def test_pdf_on_request_does_not_outlive_its_png(tmp_path):
+    """A PDF file of the same job that is newer than the inputs, as requested together with the PNG file, is kept."""
+    table = write(tmp_path / "fits.csv")
+    pdf = write(tmp_path / "a.pdf")
+    style.remove_outdated_pdf(tmp_path / "a.png", [table])
+    assert pdf.exists()
+    write(table)
+    style.remove_outdated_pdf(tmp_path / "a.png", [table])
+    assert not pdf.exists()
+    record_job("fit", ["results/a.nc"], PARAMS | {"seed": 2})
+    write(pdf)
+    record_job("fit", ["results/a.nc"], PARAMS)
+    style.remove_outdated_pdf(tmp_path / "a.png", [table])
+    assert not pdf.exists()

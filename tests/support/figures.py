@@ -13,12 +13,12 @@ X = abscissa(1e-4, 30, 20)
 ELEMENTS = 33
 
 
-def case_of(hurst, name):
-    """Return the name of a case as the workflow gives it."""
+def ensemble_name(hurst, name):
+    """Return the name of an ensemble as the workflow gives it."""
     return f"h{round(hurst * 1e4):05d}_{name}"
 
 
-CASES = {case_of(hurst, name): at for hurst in HURST for name, at in COMBINATIONS.items()}
+ENSEMBLES = {ensemble_name(hurst, name): at for hurst in HURST for name, at in COMBINATIONS.items()}
 
 
 def drawn_points(axes):

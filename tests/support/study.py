@@ -36,7 +36,7 @@ HURST = (0.4, 0.6, 0.9)
 ACROSS, ELEMENTS = 257, 51433
 
 
-def ensemble(hurst, case, zeta, *, bent=0.0, scatter=0.02, seed=0, square=1.0):
+def ensemble(hurst, name, zeta, *, bent=0.0, scatter=0.02, seed=0, square=1.0):
     """Make discs with κ = ζ X^α from one element in contact to complete contact.
 
     square : factor on ζ with h of the square, which is the h of reading B; bent : added to α
@@ -48,11 +48,13 @@ def ensemble(hurst, case, zeta, *, bent=0.0, scatter=0.02, seed=0, square=1.0):
     factor = np.exp(scatter * random.standard_normal((20, 1)))
     stiffness = np.clip([scale * zeta * factor * X**alpha for scale in (1.0, square)], one_element, 1.0)
     count = np.where(stiffness > one_element, np.maximum(ELEMENTS * stiffness**2, 2.0), 1.0)
-    return ensemble_of(X, stiffness, count, conventions=("disc", "square"), hurst=hurst, case=case, elements=ELEMENTS)
+    return ensemble_of(
+        X, stiffness, count, conventions=("disc", "square"), hurst=hurst, ensemble=name, elements=ELEMENTS
+    )
 
 
 def pool_of(members, group="base"):
-    """Join ensembles, each of one case, to a pool without averages."""
+    """Join ensembles to a pool without averages."""
     parts = []
     for member in members:
         coords = {name: member[name].item() for name in REALIZATION_COORDINATES if name != "group"} | {"group": group}
@@ -79,7 +81,7 @@ def _evidence(zeta, **options):
     members = [ensemble(hurst, f"c{i}", zeta(hurst), seed=i, **options) for hurst in HURST for i in range(4)]
     discs, lines = pool_of(members), pool_of(4 * members[::4])  # at least as many as the paper averages
     lines = lines.sel(rms_convention=["disc"]).assign_coords(rms_convention=["line"])
-    discs = xr.concat([discs, pool_of(members, READINGS["B"]["case_group"])], "realization")
+    discs = xr.concat([discs, pool_of(members, READINGS["B"]["group"])], "realization")
     fit = {"stiffness_range": [0.03, 0.3], **LIMITS}
     slope = pd.DataFrame({"hurst": HURST} | three_columns("half_spread", (0.02, 0.01, 0.03)))
     slope = slope.assign(realizations=80, line_residual=0.005)
@@ -87,7 +89,7 @@ def _evidence(zeta, **options):
         discs,
         scaling=scaling_table(discs, lines, **BOOTSTRAP, **fit),
         zeta_laws=zeta_laws_of_pool(discs, average="geometric", hurst_mins=(0.0, 0.6), fit=fit, **BOOTSTRAP),
-        local_slope=pd.concat([slope.assign(case_group=own["case_group"]) for own in READINGS.values()]),
+        local_slope=pd.concat([slope.assign(group=own["group"]) for own in READINGS.values()]),
         direct=compare_direct(hursts=HURST, elements=17, impulses=25, seed=1),
         fine_exponents=pd.DataFrame(FINE),
         **mdr_tables(),
@@ -154,10 +156,10 @@ def ensemble_of(x, stiffness, count=None, *, conventions=("disc",), **coords):
     x : X, shape (abscissae,); stiffness : κ, shape (conventions, realizations, abscissae), the first axes optional
 
     count : elements in contact, by default κ N of N elements; conventions : names of the rms heights; coords : hurst,
-        case, elements
+        ensemble, elements
     """
     stiffness = np.array(stiffness, ndmin=3)
-    coords = {"hurst": 0.7, "case": "c", "elements": 10**6} | coords
+    coords = {"hurst": 0.7, "ensemble": "c", "elements": 10**6} | coords
     count = coords["elements"] * stiffness if count is None else np.broadcast_to(count, stiffness.shape)
     curves = {"stiffness": (DIMENSIONS, stiffness), "contact_count": (DIMENSIONS, count)}
     coords |= {"x": ("abscissa", x), "rms_convention": list(conventions), "until_x": np.inf}
@@ -179,7 +181,7 @@ def line_curve(gaps, length=1.0, levels=None):
     return LoadingCurve(*columns, gaps.size, "by hand", 1e-12, 0, 0 * columns[0])
 
 
-def aggregate(curves, rms, diameter, x, *, hurst, case):
-    """Make an ensemble dataset of the loading curves of one case; arguments as in on_abscissae."""
-    coords = {"hurst": hurst, "case": case, "elements": curves[0].elements}
+def aggregate(curves, rms, diameter, x, *, hurst, ensemble):
+    """Make an ensemble dataset of the loading curves of one ensemble; arguments as in on_abscissae."""
+    coords = {"hurst": hurst, "ensemble": ensemble, "elements": curves[0].elements}
     return ensemble_of(np.asarray(x, dtype=float), *on_abscissae(curves, rms, diameter, x), conventions=rms, **coords)

@@ -84,23 +84,23 @@ def test_no_job_reads_an_undeclared_file(finished_once):
 
 def test_scaling_table_has_every_ensemble(finished_once):
     table = read_table(finished_once / "results/tables/scaling.csv")
-    ensembles = set(table[["source", "case_group", "hurst"]].itertuples(index=False, name=None))
+    ensembles = set(table[["source", "group", "hurst"]].itertuples(index=False, name=None))
     assert ensembles == {
         (source, group, hurst)
         for source, group in (("discs", "base"), ("discs", "longer_period"), ("lines", "base"))
         for hurst in (0.4, 0.9)
     }
     # Both combinations are pooled. Only discs of the base group have lines to compare with.
-    assert set(table.loc[table["case_group"] == "base"].query("source == 'discs'")["realizations"]) == {4}
+    assert set(table.loc[table["group"] == "base"].query("source == 'discs'")["realizations"]) == {4}
     with_lambda = table.dropna(subset=["lambda"])
     assert set(with_lambda["source"]) == {"discs"}
-    assert set(with_lambda["case_group"]) == {"base"}
-    assert set(table.loc[table["reading"] == "B", "case_group"]) == {"longer_period"}
+    assert set(with_lambda["group"]) == {"base"}
+    assert set(table.loc[table["reading"] == "B", "group"]) == {"longer_period"}
 
 
 def test_combinations_are_in_real_units(finished_once):
     with xr.open_dataset(finished_once / "results/curves/discs/h04000/0000-0001.nc") as curves:
-        ninth = curves.isel(realization=np.flatnonzero(curves["case"] == "h04000_c9"))
+        ninth = curves.isel(realization=np.flatnonzero(curves["ensemble"] == "h04000_c9"))
         assert ninth.sizes["realization"] == 2
         np.testing.assert_array_equal(ninth["diameter"], 0.03)
         np.testing.assert_allclose(ninth["spacing"], 0.03 / 33)

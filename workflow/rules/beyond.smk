@@ -90,8 +90,7 @@ rule compute_media:
     resources:
         mem_mb=1000,
     params:
-        **chosen("kinetics", "force", "times"),
-        cases=config["kinetics"]["media"],
+        **config["kinetics"],
         discs=cases.first_combination(config),
         rms_convention=SHOWN["rms_convention"],
         source=digest("compute_media"),

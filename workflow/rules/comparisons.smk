@@ -72,7 +72,7 @@ rule compare_direct:
 
 
 rule map_failures:
-    """Every method in every stress-test case."""
+    """Every method in every stress test."""
     output:
         csv="results/tables/failures.csv",
     log:
@@ -89,7 +89,7 @@ rule map_failures:
         seed=config["seed"],
         source=digest("map_failures"),
     message:
-        "Every method in every stress-test case"
+        "Every method in every stress test"
     script:
         "../scripts/map_failures.py"
 

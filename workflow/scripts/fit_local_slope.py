@@ -14,7 +14,7 @@ def main(discs, csv, *, controls, **settings):
     controls : groups of discs without a power law; h is the rms height of the disc
     settings : further arguments of `local_slope_table`
     """
-    groups = {own["case_group"]: own["rms_convention"] for own in READINGS.values()} | dict.fromkeys(controls, "disc")
+    groups = {own["group"]: own["rms_convention"] for own in READINGS.values()} | dict.fromkeys(controls, "disc")
     table = local_slope_table(read_dataset(discs), groups=groups, **settings)
     write_table(table, csv, columns=COLUMNS, title="Local slope within region (b), of the discs and of the control")
 

@@ -1,4 +1,4 @@
-"""Check the comparisons with exact solutions; if any failed, stop the workflow and name the failed cases."""
+"""Check the comparisons with exact solutions; if any failed, stop the workflow and name the failed comparisons."""
 
 from pathlib import Path
 
@@ -19,7 +19,7 @@ def main(table, passed, *, order_margin):
     if failed := failures(comparisons, order_margin):
         allowed = "validation.limits and validation.order_margin of the settings state what is allowed"
         raise ValueError(f"validation failed, see {table}: {'; '.join(failed)}; {allowed}")
-    names = (comparisons["case"] + " " + comparisons["quantity"]).unique()
+    names = (comparisons["comparison"] + " " + comparisons["quantity"]).unique()
     Path(passed).write_text(text_line() + "\n".join(names) + "\n", encoding="utf-8")
 
 

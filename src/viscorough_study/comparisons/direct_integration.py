@@ -17,7 +17,7 @@ from viscorough.viscous.integration.events import newtonian_events
 from viscorough_study.run.seeds import gamma_factor_key, realization_seed
 
 COLUMNS = {
-    "case": ("indenter", ""),
+    "indenter": ("indenter", ""),
     "contact_count": ("elements in contact", "1"),
     "depth_ratio": ("depth of the direct integration over the elastic depth under the force GFt/η", "1"),
     "with_gamma": ("this ratio by Eq. 8: 1/Γ(2 − α); α is exact for sphere and cone, 1/(1 + H) for rough discs", "1"),
@@ -66,13 +66,13 @@ def compare_direct(*, hursts, elements, impulses, seed):
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
-def _rows(case, alpha, events, impulse, elastic_depth):
+def _rows(name, alpha, events, impulse, elastic_depth):
     """Return the table rows of one indenter, one row for each impulse ∫F dt/η, with the columns of `COLUMNS`.
 
-    case : name of the indenter; alpha : α in the stiffness k ∝ F^α of the indenter; events : its contact events
+    name : name of the indenter; alpha : α in the stiffness k ∝ F^α of the indenter; events : its contact events
     impulse : values of the impulse; elastic_depth : depths of the elastic contact at F/G equal to each impulse
     """
     counts = events.contact_count[events.event_at(impulse)]
     ratios = events.depth_at(impulse) / elastic_depth
     factor = 1 / gamma_function(2 - alpha)
-    return [(case, count, ratio, factor) for count, ratio in zip(counts, ratios, strict=True)]
+    return [(name, count, ratio, factor) for count, ratio in zip(counts, ratios, strict=True)]

@@ -43,7 +43,7 @@ def literature(scaling, interface, reduction, *, entries, conventions):
     conventions : choices that the paper leaves open, {name of the choice: value used in the figures}
         (fits.conventions)
     """
-    fitted = fits(scaling, conventions, source="discs", case_group="base")
+    fitted = fits(scaling, conventions, source="discs", group="base")
     alpha = {"alpha": 1 - fitted["beta"], "alpha_low": 1 - fitted["beta_high"], "alpha_high": 1 - fitted["beta_low"]}
     u0 = _values(interface[interface["source"] == "discs"], "u0")
     at_x = reduction[np.log(reduction["x"] / X_COMPARED).abs() < 1e-6]

@@ -148,7 +148,7 @@ def _exponent_rows(hurst, scaling, conventions, lines, times):
     The law has no error for a Hurst exponent outside its calibration.
     No rows are yielded if the discs have no region (b).
     """
-    discs = fits(scaling, conventions, source="discs", case_group="base").set_index("hurst")["beta"]
+    discs = fits(scaling, conventions, source="discs", group="base").set_index("hurst")["beta"]
     if not np.isfinite(exact := discs.get(hurst, np.nan)):
         return
     betas = {PAPER: exponent_beta(hurst), LAW: penetration_law(hurst).beta if law_covers(hurst) else np.nan}

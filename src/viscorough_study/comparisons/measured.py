@@ -49,7 +49,7 @@ def measured_tables(pool, curves, *, names, forces, fit, seed, **loading):
         scans.append(labels | {"file": settings["file"]} | settings["lengths"])
         motions += [motion.assign(**labels) for motion in measured_motions(curve, scan_forces, **loading)]
     groups = ensembles(pool, "group").items()
-    fits = [fit_rows(ensemble, source="measured", case_group=group, seed=seed, **fit) for group, ensemble in groups]
+    fits = [fit_rows(ensemble, source="measured", group=group, seed=seed, **fit) for group, ensemble in groups]
     return {
         "measured_scans": pd.DataFrame(scans),
         "measured_fits": pd.DataFrame(chain.from_iterable(fits)),

@@ -30,18 +30,18 @@ COLUMNS = {
 HALF_WIDTH = 0.25  # the fit of a local exponent at a time extends over this many decades to either side of this time
 
 
-def named_media(cases):
+def named_media(media):
     """Return {name: medium} for mappings that contain a name and the parameters of a medium (io.medium_files)."""
-    return {case["name"]: medium_from_mapping({k: v for k, v in case.items() if k != "name"}) for case in cases}
+    return {own["name"]: medium_from_mapping({k: v for k, v in own.items() if k != "name"}) for own in media}
 
 
-def media_of_batches(batches, *, discs, rms_convention, cases, times, force):
+def media_of_batches(batches, *, discs, rms_convention, media, times, force):
     """Return the `media_table` of loading curves that are stored in files (ensembles.curve_files).
 
     batches : iterable of lists of (Realization, LoadingCurve), one for each file
     discs : names of the ensembles of discs that are used
     rms_convention : where the rms height h is measured (fits.conventions); force : F [N]
-    cases : media, each described by a mapping, for `named_media`
+    media : media, each described by a mapping, for `named_media`
     times : {"low", "high", "per_decade"}, the range [s] and the number per decade of the times
     """
     ensembles = {}
@@ -52,7 +52,7 @@ def media_of_batches(batches, *, discs, rms_convention, cases, times, force):
             curves.append(curve)
             rms.append(realization.rms[rms_convention])
     ensembles = {hurst: list(groups.values()) for hurst, groups in ensembles.items()}
-    return media_table(ensembles, named_media(cases), force=force, times=abscissa(**times))
+    return media_table(ensembles, named_media(media), force=force, times=abscissa(**times))
 
 
 def media_table(ensembles, media, *, force, times):

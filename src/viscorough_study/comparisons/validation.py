@@ -23,7 +23,7 @@ BODIES = {"sphere": reference.sphere(1.0), "cone": reference.cone(0.1)}
 RADII = np.linspace(0.2, 0.45, 26)  # contact radii of the comparison, in units of L
 # Major semi-axes of the flat ellipses, in units of L. Each minor semi-axis is half as long.
 ELLIPSES = np.linspace(0.3, 0.5, 11)
-# Force F and viscosity η of the viscous cases. F/η is far from 1, so an error in the use of F or η would show.
+# Force F and viscosity η of the viscous comparisons. F/η is far from 1, so an error in the use of F or η would show.
 FORCE, VISCOSITY = 10.0, 1e6
 TOLERANCE = 1e-5  # tolerance of the contact problems with sphere, cone and flat punches
 ROUGH = {"hurst": 0.7, "seed": 1}  # arguments of self_affine_disc for the rough disc
@@ -41,32 +41,32 @@ ORDERS = {"force": 2, "depth": 2, "stiffness": 1, "velocity": 1, "area": 1, "pun
 GRIDS_FOR_ORDER = 3  # an order of convergence is fitted only to at least this number of grids
 
 COLUMNS = {
-    "case": ("body and method", ""),
+    "comparison": ("body and method", ""),
     "quantity": ("quantity compared with the exact solution", ""),
     "elements": ("elements across the body", "1"),
     "error": ("relative error, root mean square over contact radii, of ellipses over sizes", "1"),
     "order": ("observed order of convergence over all grids", "1"),
     "expected_order": ("expected order of convergence; 0: exact on any grid", "1"),
     "limit": ("largest error allowed on the finest grid", "1"),
-    "passed": ("1 if the error and the order of this case and quantity are within their limits", "1"),
+    "passed": ("1 if the error and the order of this comparison and quantity are within their limits", "1"),
 }
 
 
 def validation_table(elements, limits, order_margin):
-    """Return errors and observed orders of convergence of every case (body and method) on every grid.
+    """Return errors and observed orders of convergence of every comparison (body and method) on every grid.
 
     elements : numbers of elements n across L, each at least 9
     limits : {quantity: largest relative error allowed on the finest grid}, for all quantities in `ORDERS`
     order_margin : the observed order may lie below the expected order by at most this amount
 
-    Returns a pandas.DataFrame with the columns of `COLUMNS`: one row per case, quantity and grid, grids from coarse to
+    Returns a pandas.DataFrame with the columns of `COLUMNS`: one row per comparison, quantity and grid, from coarse to
     fine. `passed` is 1 if the error on the finest grid is within its limit and, for three grids or more, the order is
     high enough.
     """
     errors = [
-        (case, quantity, n, error)
+        (comparison, quantity, n, error)
         for n in sorted(elements)
-        for case, quantities in _errors_on_grid(n)
+        for comparison, quantities in _errors_on_grid(n)
         for quantity, error in quantities.items()
     ]
     return judge_errors(pd.DataFrame(errors, columns=list(COLUMNS)[:4]), limits, order_margin)
@@ -75,12 +75,12 @@ def validation_table(elements, limits, order_margin):
 def judge_errors(errors, limits, order_margin):
     """Fit orders of convergence to given errors; return the table of `validation_table`, with the column `passed`.
 
-    errors : table with the columns of `COLUMNS` up to "error". The rows of one case (body and method) and one quantity
-        are sorted from coarse to fine grids
+    errors : table with the columns of `COLUMNS` up to "error". The rows of one comparison (body and method) and one
+        quantity are sorted from coarse to fine grids
     limits, order_margin : arguments of `validation_table`
     """
     judged = []
-    for (_, quantity), rows in errors.groupby(["case", "quantity"], sort=False):
+    for (_, quantity), rows in errors.groupby(["comparison", "quantity"], sort=False):
         order, expected = np.nan, ORDERS[quantity]
         if len(rows) >= GRIDS_FOR_ORDER and expected > 0:
             order = -np.polyfit(np.log(rows["elements"]), np.log(rows["error"]), 1)[0]
@@ -90,20 +90,20 @@ def judge_errors(errors, limits, order_margin):
 
 
 def failures(table, order_margin):
-    """Return one line of text for each case (body and method) and quantity that failed in a validation table.
+    """Return one line of text for each comparison (body and method) and quantity that failed in a validation table.
 
     The line states the error, the observed order, and the limits of both.
     """
     finest = table[(table["passed"] == 0) & (table["elements"] == table["elements"].max())]
     return [
-        f"{row.case} {row.quantity}: error {row.error:.2g} on {row.elements} elements, order {row.order:.2g}; "
+        f"{row.comparison} {row.quantity}: error {row.error:.2g} on {row.elements} elements, order {row.order:.2g}; "
         f"allowed: error up to {row.limit:.2g}, order from {row.expected_order - order_margin:.2g}"
         for row in finest.itertuples()
     ]
 
 
 def _errors_on_grid(n):
-    """Yield (name of the case, {quantity: error}) for every body and method on the grid with n elements across L."""
+    """Yield (name of the comparison, {quantity: error}) for every body and method, with n elements across L."""
     for name, body in BODIES.items():
         indenter = body.indenter(n)
         yield name, _indentation(indenter, body)
@@ -116,7 +116,7 @@ def _errors_on_grid(n):
 
 
 def _flat_punches(n):
-    """Yield (name of the case, {quantity: error}) for the stiffness of a flat disc and of flat ellipses.
+    """Yield (name of the comparison, {quantity: error}) for the stiffness of a flat disc and of flat ellipses.
 
     The flat disc has the same elements as a rough disc with n elements across.
     """

@@ -28,7 +28,7 @@ def write_curves(curves, path, **attributes):
         "hurst": (_single_if_equal(hurst), "Hurst exponent", "1"),
         "until_x": (_single_if_equal(until_x), "X that the curve was to reach", "1"),
         "number": (np.asarray(number), "number of the realization", "1"),
-        "case": (np.asarray(ensemble, dtype=object), "name of the ensemble", ""),
+        "ensemble": (np.asarray(ensemble, dtype=object), "name of the ensemble", ""),
     }
     for name, (values, text, units) in stored.items():
         described = {"long_name": text} | ({"units": units} if units else {})
@@ -45,19 +45,19 @@ def read_curves(path):
     variables, attributes = netcdf.read(path)
     values = {name: each for name, (_, each, _) in variables.items()}
     levels, unit = values["levels"].tolist(), variables["depth"][2]["units"]
-    shared = ("case", "number", "hurst", "diameter", "spacing", "until_x")
+    shared = ("ensemble", "number", "hurst", "diameter", "spacing", "until_x")
     labels = zip(*(np.broadcast_to(values[name], len(levels)).tolist() for name in shared), strict=True)
     heights = {name: values[f"rms_{name}"].tolist() for name in RMS if f"rms_{name}" in values}
     per_curve = {name: values[name].tolist() for name in PER_CURVE}
     curves = []
-    for i, (case, number, hurst, diameter, spacing, until_x) in enumerate(labels):
+    for i, (ensemble, number, hurst, diameter, spacing, until_x) in enumerate(labels):
         rms = {name: every[i] for name, every in heights.items()}
         fields = {name: every[i] for name, every in per_curve.items()}
         fields |= {name: values[name][i, : levels[i]] for name in STORED}
         # counts are stored as floats, since shorter curves are filled up with nan
         fields["contact_count"] = fields["contact_count"].astype(int)
         curve = LoadingCurve(**fields, length_unit=unit)
-        curves.append((Realization(case, number, hurst, diameter, spacing, rms, until_x), curve))
+        curves.append((Realization(ensemble, number, hurst, diameter, spacing, rms, until_x), curve))
     return curves, json.loads(attributes["settings"])
 
 

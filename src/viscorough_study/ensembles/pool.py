@@ -1,7 +1,7 @@
 """Collect the loading curves of all realizations in one dataset, the pool, and select ensembles from the pool.
 
 All curves are interpolated to common abscissae X. The pool has the dimensions rms_convention, realization and abscissa.
-Hurst exponent, group, case (name of an ensemble) and number of elements are coordinates of the dimension realization.
+Hurst exponent, group, ensemble and number of elements are coordinates of the dimension realization.
 The pool contains no lengths, since the curves are dimensionless, and no averages, since averages depend on the selected
 realizations.
 """
@@ -20,15 +20,15 @@ VARIABLES = {
 }
 REALIZATION_COORDINATES = {
     "hurst": ("Hurst exponent", "1"),
-    "group": ("group of cases", ""),
-    "case": ("name of the case", ""),
+    "group": ("group of ensembles", ""),
+    "ensemble": ("name of the ensemble", ""),
     "elements": ("elements of the indenter", "1"),
     "until_x": ("X that the curve was to reach", "1"),
 }
 
 
 def aggregate_curves(batches, conventions, x):
-    """Join batches of loading curves into a pool, with the realizations sorted by case and number.
+    """Join batches of loading curves into a pool, with the realizations sorted by ensemble and number.
 
     The pool does not depend on how the realizations are divided into batches.
 
@@ -61,8 +61,8 @@ def aggregate_curves(batches, conventions, x):
     pool["x"].attrs = {"long_name": "dimensionless force F/(4GhL) or time Ft/(4ηhL)", "units": "1"}
     pool["rms_convention"].attrs = {"long_name": "where the rms height h is measured"}
     pool = pool.assign_attrs(title="Loading curves on common abscissae", settings=json.dumps(distinct(settings)))
-    cases = {case: rank for rank, case in enumerate(dict.fromkeys(label[1:3] for label in labels))}
-    return pool.isel(realization=np.lexsort((numbers, [cases[label[1:3]] for label in labels])))
+    ranks = {key: rank for rank, key in enumerate(dict.fromkeys(label[1:3] for label in labels))}
+    return pool.isel(realization=np.lexsort((numbers, [ranks[label[1:3]] for label in labels])))
 
 
 def select(pool, **coordinates):
@@ -79,12 +79,12 @@ def ensembles(pool, *names, rms_convention=None):
         rms_convention. By default all definitions of the pool are kept.
 
     The ensembles are in the order of the pool, and contain averages over their realizations (ensembles.averages). The
-    coordinates hurst, elements, case and until_x become scalars if they are equal for all realizations.
+    coordinates hurst, elements, ensemble and until_x become scalars if they are equal for all realizations.
     """
     result, pool = {}, pool if rms_convention is None else pool.sel(rms_convention=rms_convention)
     for values in dict.fromkeys(zip(*(pool[name].values.tolist() for name in names), strict=True)):
         ensemble = with_averages(select(pool, **dict(zip(names, values, strict=True))))
-        for name in ("hurst", "elements", "case", "until_x"):
+        for name in ("hurst", "elements", "ensemble", "until_x"):
             # measured surfaces have hurst = nan; np.unique counts all nan as one value
             same = np.unique(ensemble[name].values)
             ensemble = ensemble.assign_coords({name: same[0]}) if same.size == 1 else ensemble

@@ -19,7 +19,7 @@ def plot_direct(table):
     figure, axes = style.new_subplots(68)
     axes.axhline(1, color=style.GREY, linewidth=0.8, zorder=1)
     names = []
-    for place, (case, rows) in enumerate(table.groupby("case", sort=False)):
+    for place, (indenter, rows) in enumerate(table.groupby("indenter", sort=False)):
         counts, ratios, factor = np.log(rows["contact_count"]), rows["depth_ratio"], rows["with_gamma"].iloc[0]
         inside = place + HALF * (2 * (counts - counts.min()) / max(np.ptp(counts), 1e-9) - 1)
         axes.plot(inside, ratios, "o", color=style.BLUE, markersize=3.5)
@@ -27,7 +27,7 @@ def plot_direct(table):
         text = {"xytext": (0, 4), "textcoords": "offset points", "ha": "center"}
         axes.annotate(f"{factor:.3f}", (place, factor), color=style.VERMILION, **text)
         elements, deviation = style.count_text(rows["contact_count"]), readable(np.abs(ratios - 1).max())
-        names.append(f"{case}\n{elements}\n{deviation}")
+        names.append(f"{indenter}\n{elements}\n{deviation}")
     axes.set_xticks(range(len(names)), names)
     axes.set(ylabel="viscous depth over elastic depth")
     axes.set_xlabel("indenter; elements in contact, from left to right; largest deviation of direct integration from 1")

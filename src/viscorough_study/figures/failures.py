@@ -1,4 +1,4 @@
-"""Draw the failure map: error and outcome of every method in every stress-test case."""
+"""Draw the failure map: error and outcome of every method in every stress test."""
 
 from itertools import pairwise
 
@@ -25,18 +25,18 @@ def plot_failures(table):
 
     table : table of robustness.failure_map
     """
-    methods, rows = list(table["method"].unique()), list(dict.fromkeys(zip(table["group"], table["case"], strict=True)))
+    methods, rows = list(table["method"].unique()), list(dict.fromkeys(zip(table["group"], table["test"], strict=True)))
     figure, axes = style.new_subplots(4.4 * len(rows) + 42)
     outcomes = np.zeros((len(rows), len(methods)))
     names = list(OUTCOMES)
     for cell in table.itertuples():
-        i, j = rows.index((cell.group, cell.case)), methods.index(cell.method)
+        i, j = rows.index((cell.group, cell.test)), methods.index(cell.method)
         outcomes[i, j] = names.index(cell.verdict)
         axes.text(j, i, _cell_text(cell), ha="center", va="center", color=OUTCOMES[cell.verdict][2])
     colors = ListedColormap([color for _, color, _ in OUTCOMES.values()])
     axes.imshow(outcomes, cmap=colors, vmin=-0.5, vmax=len(names) - 0.5, aspect="auto")
     axes.set_xticks(range(len(methods)), methods)
-    axes.set_yticks(range(len(rows)), [f"{group}: {case}" for group, case in rows])
+    axes.set_yticks(range(len(rows)), [f"{group}: {test}" for group, test in rows])
     axes.tick_params(which="both", length=0, top=False, labeltop=True, labelbottom=False, right=False)
     for column in range(1, len(methods)):
         axes.axvline(column - 0.5, color="white", linewidth=1)
@@ -50,7 +50,7 @@ def plot_failures(table):
 
 
 def _cell_text(cell):
-    """Return the error with one digit, such as 4e-15, 0.3 or 300; nothing if the method refuses the case."""
+    """Return the error with one digit, such as 4e-15, 0.3 or 300; nothing if the method refuses the test."""
     if cell.verdict == "refused":
         return ""
     return f"{cell.error:.1g}" if cell.error < 1 else f"{float(f'{cell.error:.1g}'):.0f}"

@@ -21,7 +21,7 @@ def ensembles(path):
 
     A combination is a choice of force, viscosity, diameter and rms height.
     """
-    return list(pool.ensembles(pool.select(read_dataset(path), group="base"), "case").values())
+    return list(pool.ensembles(pool.select(read_dataset(path), group="base"), "ensemble").values())
 
 
 def discs(path):
@@ -38,7 +38,7 @@ def longer_period(path):
 
 def controls(path):
     """Read the curves of discs that belong to no reading of the paper; return a list of ensembles, one for each H."""
-    groups = [own["case_group"] for own in READINGS.values()]
+    groups = [own["group"] for own in READINGS.values()]
     every = pool.ensembles(read_dataset(path), "group", "hurst")
     return [ensemble for (group, _), ensemble in every.items() if group not in groups]
 

@@ -35,15 +35,15 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
     curves = [mean_curve(ds, conventions, fraction_min) for ds in ensembles]
     start = min((curve.x[curve.several][0] for curve in curves if curve.several.any()), default=0) / 10
     for ds, curve in zip(ensembles, curves, strict=True):
-        case, color, shown = ds["case"].item(), looks[ds["hurst"].item()]["color"], curve.x >= start
+        ensemble, color, shown = ds["ensemble"].item(), looks[ds["hurst"].item()]["color"], curve.x >= start
         # The grey curve (one element in contact) includes the first X with several elements, so that it meets the
         # coloured curve.
         one_element = (~curve.several | np.append(True, ~curve.several[:-1])) & shown
         collapsed.plot(curve.x[one_element], curve.velocity[one_element], color=style.PALE, zorder=1)
-        collapsed.plot(curve.x[curve.several], curve.velocity[curve.several], label=case, color=color, **THIN)
-        force, viscosity, diameter, rms = (combinations[case][name] for name in UNITS)
+        collapsed.plot(curve.x[curve.several], curve.velocity[curve.several], label=ensemble, color=color, **THIN)
+        force, viscosity, diameter, rms = (combinations[ensemble][name] for name in UNITS)
         time = 4 * curve.x[shown] * viscosity * rms * diameter / force
-        raw.plot(time, curve.velocity[shown] * rms / time, label=case, color=style.PALE, **THIN)
+        raw.plot(time, curve.velocity[shown] * rms / time, label=ensemble, color=style.PALE, **THIN)
     number = style.realizations_text(ensembles)
     collapsed.set_title(f"(a) {len(ensembles)} scaled curves, each a mean over {number} discs")
     collapsed.set(xscale="log", yscale="log", xlabel=r"$X = Ft/(4\eta hL)$", ylabel="$vt/h$")
@@ -54,7 +54,7 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
     _mark_windows(collapsed, looks, scaling, conventions)
     _name_exponents(collapsed, dict(zip((ds["hurst"].item() for ds in ensembles), curves, strict=True)), looks)
     raw.set(xscale="log", yscale="log", xlabel="time $t$ (s)", ylabel="velocity $v$ (m/s)")
-    texts = [f"{_combination(case)}: {_text(combinations[case])}" for case in _name_combinations(raw)]
+    texts = [f"{_combination(ensemble)}: {_text(combinations[ensemble])}" for ensemble in _name_combinations(raw)]
     heading = "(b) the same curves in SI units"
     raw.set_title("\n".join([heading, *texts]), multialignment="left")
     return figure
@@ -105,9 +105,9 @@ def _name_combinations(axes):
     return [ends[name][0] for name in named]
 
 
-def _combination(case):
+def _combination(ensemble):
     """Return the second part of the name <Hurst exponent>_<combination of parameters> of an ensemble."""
-    return case.partition("_")[2]
+    return ensemble.partition("_")[2]
 
 
 def _text(combination):
@@ -141,7 +141,7 @@ def _mark_windows(axes, looks, scaling, conventions):
     text = {"color": style.GREY, "transform": axes.get_xaxis_transform(), "va": "center", "ha": "right"}
     bar = {"linewidth": 2.5, "solid_capstyle": "butt", "transform": axes.get_xaxis_transform()}
     for rank, (hurst, look) in enumerate(reversed(looks.items())):
-        for row in fits(scaling, conventions, source="discs", case_group="base", hurst=hurst).itertuples():
+        for row in fits(scaling, conventions, source="discs", group="base", hurst=hurst).itertuples():
             axes.plot([row.x_low, row.x_high], [0.03 + 0.035 * rank] * 2, color=look["color"], **bar)
             axes.text(0.8 * row.x_low, 0.03 + 0.035 * rank, f"{hurst:g}", **text)
     axes.text(0.97, 0.025, "bars: region (b)", color=style.GREY, transform=axes.transAxes, ha="right")

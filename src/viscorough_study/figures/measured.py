@@ -29,7 +29,7 @@ def plot_measured(groups, discs, scaling, kinetics, conventions, *, fraction_min
         color, x = looks[name]["color"], group["x"].values
         for velocity, count in zip(group["velocity"].values[0], group["contact_count"].values[0], strict=True):
             law.plot(x[count > 1], velocity[count > 1], color=color, linewidth=0.9)
-        own_rms = {"rms_convention": "disc", "source": "measured", "case_group": name}
+        own_rms = {"rms_convention": "disc", "source": "measured", "group": name}
         for row in fits(scaling, conventions, **own_rms).itertuples():
             window = np.array([row.x_low, row.x_high])
             law.plot(window, window**row.beta / row.zeta, color=color, linewidth=3, alpha=0.4)

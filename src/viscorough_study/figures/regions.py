@@ -32,7 +32,7 @@ def plot_regions(discs, controls, local_slope, *, fraction_min):
         look = {"color": looks[hurst]["color"]}
         x, slopes = _slopes(ensemble, fraction_min)
         slope.plot(x, slopes, linewidth=0.8, **look)
-        for row in local_slope.query("case_group == 'base' and hurst == @hurst").dropna(subset="x_low").itertuples():
+        for row in local_slope.query("group == 'base' and hurst == @hurst").dropna(subset="x_low").itertuples():
             inside = in_window(x, (row.x_low, row.x_high))
             slope.plot(x[inside], slopes[inside], linewidth=2.2, **look)
             slope.plot([row.x_low, row.x_high], [exponent_beta(hurst)] * 2, **DASHED, **look)
@@ -40,7 +40,7 @@ def plot_regions(discs, controls, local_slope, *, fraction_min):
     for ensemble in controls:
         hurst = ensemble["hurst"].item()
         x, slopes = _slopes(ensemble, fraction_min)
-        rows = local_slope.query("case_group not in ('base', 'longer_period') and hurst == @hurst")
+        rows = local_slope.query("group not in ('base', 'longer_period') and hurst == @hurst")
         for row in rows.dropna(subset="x_low").itertuples():
             inside = in_window(x, (row.x_low, row.x_high))
             slope.plot(x[inside], slopes[inside], color=looks[hurst]["color"], **CONTROL)

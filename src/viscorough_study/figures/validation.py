@@ -5,7 +5,7 @@ from matplotlib.ticker import FixedLocator
 
 from viscorough_study.figures import style
 
-# Short names of the methods of cases, {method: name}; a case is named BODY_METHOD, or BODY for boundary elements.
+# Short names of the methods, {method: name}; a comparison is named BODY_METHOD, or BODY for boundary elements.
 METHODS = {
     "": "",
     "disc": " disc",  # the rough disc
@@ -22,17 +22,17 @@ def plot_validation(table):
     """Draw deviations from exact solutions against the number of elements across, with a panel for each quantity.
 
     A black bar marks the largest error allowed on the finest grid. The dotted line that leads to this bar falls with
-    the expected order of convergence. The body of a case determines its colour.
+    the expected order of convergence. The body of a comparison determines its colour.
     table : table of viscorough_study.comparisons.validation
     """
     quantities, grids = table["quantity"].unique(), np.sort(table["elements"].unique())
-    looks = style.series_looks(case.partition("_")[0] for case in table["case"])
+    looks = style.series_looks(comparison.partition("_")[0] for comparison in table["comparison"])
     labels = {"xlabel": "elements across, $n$", "ylabel": "relative error"}
     figure, panels = style.new_panels(len(quantities), min(3, len(quantities)), height=46, rest=6, **labels)
     for axes, quantity in zip(panels, quantities, strict=True):
         errors, ends = table[table["quantity"] == quantity], []
-        for case, rows in errors.groupby("case", sort=False):
-            body, _, method = case.partition("_")
+        for comparison, rows in errors.groupby("comparison", sort=False):
+            body, _, method = comparison.partition("_")
             color, name = looks[body]["color"], body + METHODS[method]
             axes.plot(rows["elements"], rows["error"], "o-", color=color, markerfacecolor="none")
             ends.append((name, *rows[["elements", "error"]].iloc[-1], color))

@@ -23,8 +23,8 @@ from viscorough import reference
 # A: the period of the square equals the diameter, and h is the rms height of the disc. B: the disc is cut from a square
 # of twice its diameter, and h is the rms height of the square.
 READINGS = {
-    "A": {"case_group": "base", "rms_convention": "disc"},
-    "B": {"case_group": "longer_period", "rms_convention": "square"},
+    "A": {"group": "base", "rms_convention": "disc"},
+    "B": {"group": "longer_period", "rms_convention": "square"},
 }
 FITTED = {
     "rms_convention": ("disc", "square", "ensemble"),  # for lines the value is "line"
@@ -72,9 +72,9 @@ def in_reading(fits, gamma):
     return converted.drop(columns=list(interval_columns("with")))
 
 
-def reading_of(case_group, rms_convention):
+def reading_of(group, rms_convention):
     """Return the reading of the paper's surfaces to which a fit belongs, "" if to none. Lines belong to reading A."""
-    own = {"case_group": case_group, "rms_convention": "disc" if rms_convention == "line" else rms_convention}
+    own = {"group": group, "rms_convention": "disc" if rms_convention == "line" else rms_convention}
     return next((reading for reading, columns in READINGS.items() if columns == own), "")
 
 

@@ -36,7 +36,7 @@ from viscorough_study.run.names import SHOWN
 COLUMNS = {
     "source": ("discs (boundary elements) or lines (method of dimensionality reduction)", None),
     "reading": ("reading of the surfaces: A (period L, h of the disc), B (longer period, h of the square)", None),
-    "case_group": ("base, longer_period or name of the variant of the surfaces", None),
+    "group": ("base, longer_period or name of the variant of the surfaces", None),
     "hurst": ("Hurst exponent H", "1"),
     "rms_convention": ("where the rms height h is measured", None),
     "average": ("mean over the realizations at fixed X", None),
@@ -69,27 +69,25 @@ def scaling_table(discs, lines, *, seed, **fit):
     lines, rows = ensembles(lines, "hurst"), []
     shown = {"averages": (SHOWN["average"],), "rules": (SHOWN["window_rule"],), "seed": seed}
     for reading, columns in READINGS.items():
-        group = columns["case_group"]
+        group = columns["group"]
         for hurst, ensemble in ensembles(select(discs, group=group), "hurst").items():
             logging.info("discs, reading %s, H = %g", reading, hurst)
-            labels = {"source": "discs", "case_group": group, "lines": lines[hurst] if group == "base" else None}
+            labels = {"source": "discs", "group": group, "lines": lines[hurst] if group == "base" else None}
             rows += fit_rows(ensemble.sel(rms_convention=[columns["rms_convention"]]), **labels, **shown, **fit)
     for hurst, ensemble in lines.items():
         logging.info("lines, H = %g", hurst)
-        rows += fit_rows(ensemble, source="lines", case_group="base", **shown, **fit)
+        rows += fit_rows(ensemble, source="lines", group="base", **shown, **fit)
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
-def fit_rows(
-    ensemble, *, source, case_group, lines=None, averages=FITTED["average"], rules=None, resamples, seed, **limits
-):
+def fit_rows(ensemble, *, source, group, lines=None, averages=FITTED["average"], rules=None, resamples, seed, **limits):
     """Fit one ensemble with every definition of the rms height, kind of mean, and window (range of X) of the fit.
 
     Return a list of rows of the table, each a dict with the keys of `COLUMNS`. If a window does not exist for the
     ensemble, for example because it has no region (b), the values of the fit in this window are nan.
 
     ensemble : ensemble dataset (ensembles.averages)
-    source, case_group : entries of the columns of these names
+    source, group : entries of the columns of these names
     lines : ensemble dataset of lines with the same Hurst exponent and abscissae, from which λ (see the module) is
         found, or None. λ is nan for `lines` = None, and if the lines do not reach the stiffness that the discs have at
         the centre of the window
@@ -101,9 +99,9 @@ def fit_rows(
     rows = []
     for rms_convention in ensemble["rms_convention"].values.tolist():
         selected = ensemble.sel(rms_convention=rms_convention)
-        ensemble_columns = {"source": source, "case_group": case_group, "hurst": ensemble["hurst"].item()}
+        ensemble_columns = {"source": source, "group": group, "hurst": ensemble["hurst"].item()}
         ensemble_columns |= {"rms_convention": rms_convention, "realizations": selected.sizes["realization"]}
-        ensemble_columns["reading"] = reading_of(case_group, rms_convention)
+        ensemble_columns["reading"] = reading_of(group, rms_convention)
         windows = named_windows(selected, **limits)
         for average in averages:
             bootstrap = {"average": average, "resamples": resamples, "seed": seed}
@@ -166,9 +164,9 @@ def calibrated(scaling, law, *, conventions, **fit):
     conventions : {convention: value} of the selected fits, for example {"average": "geometric"}
     fit : further arguments of `fit_rows`
     """
-    rows = [fits(scaling, conventions | source_values(source), case_group="base") for source in ("discs", "lines")]
+    rows = [fits(scaling, conventions | source_values(source), group="base") for source in ("discs", "lines")]
     for hurst, ensemble in ensembles(law, "hurst").items():
         if hurst not in rows[0]["hurst"].values:
-            further = pd.DataFrame(fit_rows(ensemble, source="discs", case_group="base", **fit))
+            further = pd.DataFrame(fit_rows(ensemble, source="discs", group="base", **fit))
             rows.append(fits(further, conventions, source="discs"))
     return pd.concat(rows)[list(CALIBRATION)].sort_values(["source", "hurst"], ignore_index=True)

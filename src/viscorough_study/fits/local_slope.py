@@ -24,7 +24,7 @@ from viscorough_study.fits.power_law import ROUNDING, find_region, in_window, in
 from viscorough_study.run.seeds import local_slope_key, realization_seed
 
 COLUMNS = {
-    "case_group": ("base, longer_period, or name of the control, which has no power law", None),
+    "group": ("base, longer_period, or name of the control, which has no power law", None),
     "hurst": ("Hurst exponent H", "1"),
     "realizations": ("realizations in the ensemble", "1"),
     **described_ends("x", "of region (b) in X = F/(4GhL), missing where there is none"),
@@ -53,7 +53,7 @@ def local_slope_table(discs, *, groups, region, half_width, resamples, seed):
             random = np.random.default_rng(realization_seed(seed, *local_slope_key(hurst, group)))
             options = {"half_width": half_width * np.log(10), "resamples": resamples, "random": random}
             measured = straightness(ensemble, find_region(ensemble, **region), **options)
-            rows.append({"case_group": group, "hurst": hurst, **measured})
+            rows.append({"group": group, "hurst": hurst, **measured})
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 

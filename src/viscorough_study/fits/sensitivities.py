@@ -43,7 +43,7 @@ def sensitivities(*pools, **fit):
     for pool in pools:
         for (group, _), ensemble in ensembles(pool, "group", "hurst").items():
             if group not in CONTROLS:
-                rows += fit_rows(ensemble, source="discs", case_group=group, **fit)
-    table = in_reading(pd.DataFrame(rows), "with").rename(columns={"case_group": "surfaces"})
+                rows += fit_rows(ensemble, source="discs", group=group, **fit)
+    table = in_reading(pd.DataFrame(rows), "with").rename(columns={"group": "surfaces"})
     ratios = {ratio: table[zeta] / reference.zeta_viscous(table["hurst"]) for zeta, ratio in _RATIO.items()}
     return table.assign(**ratios, residual=table["residual_fixed"])[list(COLUMNS)]

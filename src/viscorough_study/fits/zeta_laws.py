@@ -58,7 +58,7 @@ def zeta_laws_of_pool(discs, *, average, hurst_mins, fit, resamples, seed):
     """
     tables = []
     for reading, chosen in READINGS.items():
-        members = select(discs, group=chosen["case_group"])
+        members = select(discs, group=chosen["group"])
         pooled = dict(sorted(ensembles(members, "hurst", rms_convention=chosen["rms_convention"]).items()))
         windows = {hurst: named_windows(ensemble, **fit)["default"] for hurst, ensemble in pooled.items()}
         tables.append(

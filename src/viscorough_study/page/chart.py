@@ -49,13 +49,13 @@ def chart_data(discs, combinations, conventions, fraction_min):
     combinations : {name of the ensemble: force [N], viscosity [Pa s], diameter [m], rms [m]}
     conventions, fraction_min : see ensembles.mean_curve
     """
-    ensembles = list(pool.ensembles(pool.select(read_dataset(discs), group="base"), "case").values())
+    ensembles = list(pool.ensembles(pool.select(read_dataset(discs), group="base"), "ensemble").values())
     means = [mean_curve(ensemble, conventions, fraction_min) for ensemble in ensembles]
     start = min((mean.x[mean.several][0] for mean in means if mean.several.any()), default=0.0) / 10
     curves = []
     for ensemble, mean in zip(ensembles, means, strict=True):
-        shown, hurst, case = mean.x >= start, ensemble["hurst"].item(), ensemble["case"].item()
-        curve = {"hurst": hurst, "combination": case.partition("_")[2]} | combinations[case]
+        shown, hurst, name = mean.x >= start, ensemble["hurst"].item(), ensemble["ensemble"].item()
+        curve = {"hurst": hurst, "combination": name.partition("_")[2]} | combinations[name]
         curve["color"] = to_hex(hurst_color(hurst))
         curve["velocity"] = _rounded(mean.velocity[shown])
         curve["elements"] = _rounded(np.where(np.isfinite(mean.velocity), mean.elements, np.nan)[shown])

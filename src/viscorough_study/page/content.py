@@ -90,7 +90,7 @@ def verdict_counts(results):
 def failures(results):
     """Return the numbers that the page states about the stress tests of all methods (robustness.failure_map).
 
-    cases : number of stress tests
+    tests : number of stress tests
     unnoticed : number of results that are wrong without a warning
     warned : number of results that are wrong, but come with a warning
     stated : number of results of models that are wrong outside their documented range, without a warning
@@ -101,7 +101,7 @@ def failures(results):
     outside = table[table["method"].isin(MODELS) & table["verdict"].isin(["stated", "warned"])]
     return {
         # each method has one row per stress test
-        "cases": results.count("failures", "method", table["method"].iloc[0]),
+        "tests": results.count("failures", "method", table["method"].iloc[0]),
         **{name: results.count("failures", "verdict", name) for name in ("unnoticed", "warned", "stated")},
         "worst_model": results.extremes(outside[np.isfinite(outside["error"])], "failures", "error")[1],
         "methods": {name: Counter(rows["verdict"]) for name, rows in table.groupby("method", sort=False)},
@@ -221,22 +221,22 @@ def as_yaml(value):
 def _pool(path):
     """Read how many random surfaces a NetCDF file of loading curves contains (ensembles.pool), and their settings.
 
-    A case in the file is a set of random surfaces with the same settings. Cases form groups.
+    An ensemble in the file is a set of random surfaces with the same settings. Ensembles form groups.
 
-    realizations : number of surfaces of the first case
+    realizations : number of surfaces of the first ensemble
     description : settings of the first ensemble
-    hurst : Hurst exponents of all cases in the group of the first case
-    cases_per_hurst : number of cases in the same group that have the Hurst exponent of the first case
+    hurst : Hurst exponents of all ensembles in the group of the first ensemble
+    ensembles_per_hurst : number of ensembles in the same group that have the Hurst exponent of the first ensemble
     groups : names of all groups
     """
     with opened(path) as file:
         settings = json.loads(file.getncattr("settings"))
-        case, hurst, group = (np.ma.getdata(file[name][...]) for name in ("case", "hurst", "group"))
+        ensemble, hurst, group = (np.ma.getdata(file[name][...]) for name in ("ensemble", "hurst", "group"))
     base = group == group[0]
     return {
-        "realizations": int((case == case[0]).sum()),
+        "realizations": int((ensemble == ensemble[0]).sum()),
         "hurst": sorted({float(value) for value in hurst[base]}),
-        "cases_per_hurst": len(set(case[base & (hurst == hurst[0])])),
+        "ensembles_per_hurst": len(set(ensemble[base & (hurst == hurst[0])])),
         "groups": list(dict.fromkeys(group.tolist())),
         "description": settings[0],
     }

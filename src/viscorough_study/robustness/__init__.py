@@ -1,1 +1,1 @@
-"""Stress tests of all methods: in which cases a method fails, and whether it reports the failure."""
+"""Stress tests of all methods: where a method fails, and whether it reports the failure."""

@@ -186,7 +186,7 @@ def power_law(evidence, tolerance):
 )
 def power_law_control(evidence, tolerance):
     """Test whether the criterion of `power_law` rejects discs without long waves, at each Hurst exponent."""
-    table = evidence.tables["local_slope"].query("case_group not in @evidence.groups")
+    table = evidence.tables["local_slope"].query("group not in @evidence.groups")
     if table.empty:
         yield judged("no control", UNDEFINED, np.nan, None)
     yield from _spreads(evidence, table, (tolerance, np.inf))

@@ -62,16 +62,16 @@ class Evidence:
     def readings(self):
         """Return {name of a reading: Evidence in this reading}, for each reading whose discs were computed."""
         groups = set(self.discs["group"].values.tolist())
-        return {name: replace(self, reading=name) for name, own in READINGS.items() if own["case_group"] in groups}
+        return {name: replace(self, reading=name) for name, own in READINGS.items() if own["group"] in groups}
 
     @property
     def groups(self):
         """Return the names of the groups of discs that belong to a reading; other groups are controls."""
-        return [own["case_group"] for own in READINGS.values()]
+        return [own["group"] for own in READINGS.values()]
 
     @cached_property
     def _discs_of_reading(self):
-        return pool.select(self.discs, group=READINGS[self.reading]["case_group"])
+        return pool.select(self.discs, group=READINGS[self.reading]["group"])
 
     @cached_property
     def pooled(self):
@@ -94,7 +94,7 @@ class Evidence:
         A combination is a choice of force, viscosity, diameter and rms height.
         """
         discs = self._discs_of_reading
-        return {h: list(self._ensembles(pool.select(discs, hurst=h), "case").values()) for h in self.pooled}
+        return {h: list(self._ensembles(pool.select(discs, hurst=h), "ensemble").values()) for h in self.pooled}
 
     def _ensembles(self, discs, name):
         return pool.ensembles(discs, name, rms_convention=READINGS[self.reading]["rms_convention"])
@@ -113,7 +113,7 @@ class Evidence:
         gamma : "with" or "without", for ζ of the law with or without the factor 1/Γ(2 − α)
         Fits without a region (b) have no exponent; their values are nan.
         """
-        own = READINGS[self.reading] if source == "discs" else {"case_group": "base"}
+        own = READINGS[self.reading] if source == "discs" else {"group": "base"}
         chosen = self.conventions | {"gamma": gamma} | own | source_values(source)
         return select(self.tables["scaling"], chosen).set_index("hurst")
 
@@ -123,9 +123,9 @@ class Evidence:
         return table[table["reading"] == self.reading]
 
     def of_discs(self, name):
-        """Return the rows of a table that belong to the discs of the reading; the table has the column `case_group`."""
+        """Return the rows of a table that belong to the discs of the reading; the table has the column `group`."""
         table = self.tables[name]
-        return table[table["case_group"] == READINGS[self.reading]["case_group"]]
+        return table[table["group"] == READINGS[self.reading]["group"]]
 
     def paper_value(self, section, name):
         """Return a number that the paper states (resources/paper/numbers.yaml)."""

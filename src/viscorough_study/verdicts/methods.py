@@ -60,6 +60,6 @@ def _depth_ratios(evidence, tolerance, expected):
 
     expected : function of the rows of an indenter in the table of direct integration
     """
-    for name, rows in evidence.tables["direct"].groupby("case", sort=False):
+    for name, rows in evidence.tables["direct"].groupby("indenter", sort=False):
         ratio, factor = rows["depth_ratio"], expected(rows)
         yield exact(name, ratio.median(), factor, (np.abs(ratio - factor) <= tolerance).all(), ratio)

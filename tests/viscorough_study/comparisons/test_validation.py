@@ -6,7 +6,7 @@ from viscorough_study.comparisons import validation as validate_solvers
 
 GRIDS = (17, 33, 65)
 MARGIN = 0.3
-ERRORS = ["case", "quantity", "elements", "error"]
+ERRORS = ["comparison", "quantity", "elements", "error"]
 # The limits are about twice the errors of the finest grid. config/config.yaml has the limits of the default grids.
 LIMITS = {
     "force": 5e-4,
@@ -28,12 +28,12 @@ def test_every_case_passes_on_every_grid(table):
     assert validate_solvers.failures(table, MARGIN) == []
     assert table["passed"].all()
     assert list(table.columns) == list(validate_solvers.COLUMNS)
-    assert (table.groupby(["case", "quantity"])["elements"].apply(tuple) == GRIDS).all()
+    assert (table.groupby(["comparison", "quantity"])["elements"].apply(tuple) == GRIDS).all()
     assert set(table["quantity"]) == set(validate_solvers.ORDERS)
-    cases = {"disc", "ellipse", "rough_disc", "sphere_on_rectangles"}
+    comparisons = {"disc", "ellipse", "rough_disc", "sphere_on_rectangles"}
     for body in ("sphere", "cone"):
-        cases |= {body, f"{body}_constant_force", f"{body}_rising_force", f"{body}_reduction"}
-    assert set(table["case"]) == cases
+        comparisons |= {body, f"{body}_constant_force", f"{body}_rising_force", f"{body}_reduction"}
+    assert set(table["comparison"]) == comparisons
 
 
 def test_an_error_above_its_limit_is_named(table):

@@ -37,7 +37,7 @@ def test_realization_is_the_same_in_every_batch(tmp_path, kind):
     for first in (0, 2):
         batch = [ensemble | {"numbers": [first, 3]} for ensemble in ensembles]
         values = curves_of(kind, tmp_path, batch)
-        names, numbers = values["case"].tolist(), values["number"].tolist()
+        names, numbers = values["ensemble"].tolist(), values["number"].tolist()
         force = [row[np.isfinite(row)] for row in values["force"]]
         curves[first] = dict(zip(zip(names, numbers, strict=True), force, strict=True))
     for key, force in curves[2].items():

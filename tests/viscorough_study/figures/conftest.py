@@ -2,7 +2,7 @@
 
 import pytest
 
-from support.figures import COMBINATIONS, ELEMENTS, HURST, X, case_of
+from support.figures import COMBINATIONS, ELEMENTS, HURST, X, ensemble_name
 from support.study import aggregate, evidence, pool_of
 from viscorough.contact.loading_path import indent
 from viscorough.mdr import reduce
@@ -26,12 +26,12 @@ def curves():
 
 @pytest.fixture(scope="session")
 def discs(curves):
-    """Return an ensemble for every case, each of two realizations."""
+    """Return an ensemble for every combination, each of two realizations."""
     members = []
     for (hurst, name), pair in curves.items():
         rms, diameter = COMBINATIONS[name]["rms"], COMBINATIONS[name]["diameter"]
-        case = case_of(hurst, name)
-        members.append(aggregate(pair, {"disc": rms, "square": 1.1 * rms}, diameter, X, hurst=hurst, case=case))
+        own = ensemble_name(hurst, name)
+        members.append(aggregate(pair, {"disc": rms, "square": 1.1 * rms}, diameter, X, hurst=hurst, ensemble=own))
     return members
 
 
@@ -45,7 +45,7 @@ def lines():
     result = []
     for hurst in HURST:
         reduced = [reduce(self_affine_line(hurst, 1024, seed=seed)) for seed in (1, 2)]
-        result.append(aggregate(reduced, {"line": 1.0}, 1.0, X, hurst=hurst, case="lines"))
+        result.append(aggregate(reduced, {"line": 1.0}, 1.0, X, hurst=hurst, ensemble="lines"))
     return result
 
 

@@ -53,7 +53,7 @@ def test_master_curve_is_bold_in_region_b_of_each_reading(pooled, lines, scaling
     _, *ratios = plot_master_curve(pooled, pooled[:1], lines, scaling, SHOWN, fraction_min=0.95).axes
     readings = (("base", "disc"), ("longer_period", "square"))
     for axes, members, (group, rms) in zip(ratios, (pooled, pooled[:1]), readings, strict=True):
-        windows = fits(scaling, SHOWN, source="discs", case_group=group, rms_convention=rms).set_index("hurst")
+        windows = fits(scaling, SHOWN, source="discs", group=group, rms_convention=rms).set_index("hurst")
         curves = [line for line in axes.lines if len(line.get_xdata()) > 2]
         for ensemble, thin, bold in zip(members, curves[::2], curves[1::2], strict=True):
             hurst, discs = ensemble["hurst"].item(), ensemble.sel(rms_convention=rms)

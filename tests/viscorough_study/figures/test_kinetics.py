@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from support.figures import CASES, COMBINATIONS, ELEMENTS, HURST, case_of
+from support.figures import COMBINATIONS, ELEMENTS, ENSEMBLES, HURST, ensemble_name
 from support.study import SHOWN
 from viscorough import reference
 from viscorough.viscous.kinetics import kinetics
@@ -15,14 +15,14 @@ pytestmark = pytest.mark.filterwarnings("error")
 
 @pytest.fixture(scope="module")
 def figure(discs, scaling):
-    return plot_kinetics(discs, CASES, scaling, SHOWN, fraction_min=0.95)
+    return plot_kinetics(discs, ENSEMBLES, scaling, SHOWN, fraction_min=0.95)
 
 
 def test_kinetics_agree_with_the_curves_in_real_units(curves, figure):
     """viscorough.viscous.kinetics does not use X. The geometric mean of v at the drawn times must agree."""
     scaled, moving = ({line.get_label(): line.get_data() for line in axes.lines} for axes in figure.axes[:2])
     for hurst, name in curves:
-        at, label = COMBINATIONS[name], case_of(hurst, name)
+        at, label = COMBINATIONS[name], ensemble_name(hurst, name)
         beyond_region_a = np.isfinite(moving[label][1]).nonzero()[0][-len(scaled[label][0]) :]
         time, velocity = np.array(moving[label])[:, beyond_region_a]
         velocities = [kinetics(curve, at["force"], at["viscosity"], time).velocity for curve in curves[hurst, name]]
@@ -34,7 +34,7 @@ def test_kinetics_agree_with_the_curves_in_real_units(curves, figure):
 def test_kinetics_mark_the_regions(figure, scaling):
     axes = figure.axes[0]
     bars = [line.get_xdata() for line in axes.lines if line.get_transform() == axes.get_xaxis_transform()]
-    fitted = fits(scaling[scaling["hurst"].isin(HURST)], SHOWN, source="discs", case_group="base")
+    fitted = fits(scaling[scaling["hurst"].isin(HURST)], SHOWN, source="discs", group="base")
     np.testing.assert_allclose(sorted(map(tuple, bars)), sorted(zip(fitted.x_low, fitted.x_high, strict=True)))
     first, last = (line.get_xydata() for line in axes.lines if line.get_linestyle() == ":")
     kappa = reference.one_element_stiffness(ELEMENTS)
@@ -46,8 +46,8 @@ def test_kinetics_mark_the_regions(figure, scaling):
 def test_means_over_few_realizations_are_left_out(discs, scaling, fraction_min, shown):
     beyond = discs[0]["x"] > 1.0
     few = discs[0].assign(fraction_defined=discs[0]["fraction_defined"].where(~beyond, 0.5))
-    figure = plot_kinetics([few], CASES, scaling, SHOWN, fraction_min=fraction_min)
-    (line,) = [line for line in figure.axes[0].lines if line.get_label() in CASES]
+    figure = plot_kinetics([few], ENSEMBLES, scaling, SHOWN, fraction_min=fraction_min)
+    (line,) = [line for line in figure.axes[0].lines if line.get_label() in ENSEMBLES]
     assert (line.get_xdata().max() > 1.1) == shown
 
 

@@ -23,7 +23,7 @@ LINES = ensemble_of(X, np.tile(1.3 * three_regions(X), (9, 1)), conventions=["li
 
 
 def fitted(ensemble, **changes):
-    options = {"source": "discs", "case_group": "base", "stiffness_range": (0.03, 0.3)}
+    options = {"source": "discs", "group": "base", "stiffness_range": (0.03, 0.3)}
     return fit_rows(ensemble, **(options | LIMITS | BOOTSTRAP | changes))
 
 
@@ -44,8 +44,8 @@ def test_table_has_a_row_for_every_fit():
 @pytest.mark.parametrize("gamma", GAMMA)
 def test_reading_agrees_with_a_fit_in_its_convention(gamma):
     """ζ and its interval agree with a fit in that reading. One of two groups of surfaces is selected."""
-    table = pd.DataFrame(fitted(DISCS) + fitted(DISCS, case_group="corners"))
-    wanted = SHOWN | {"gamma": gamma, "case_group": "corners"}
+    table = pd.DataFrame(fitted(DISCS) + fitted(DISCS, group="corners"))
+    wanted = SHOWN | {"gamma": gamma, "group": "corners"}
     (row,) = select(table, wanted).to_dict("records")
     assert {name: row[name] for name in wanted} == wanted
     window = row["x_low"], row["x_high"]
@@ -70,7 +70,7 @@ def test_without_a_region_rows_have_no_numbers():
 
 
 def test_calibration_has_base_discs_and_lines_in_the_conventions_shown():
-    rows = fitted(DISCS, lines=LINES) + fitted(DISCS, case_group="roll_off") + fitted(LINES, source="lines")
+    rows = fitted(DISCS, lines=LINES) + fitted(DISCS, group="roll_off") + fitted(LINES, source="lines")
     law = pool_of([DISCS.assign_coords(hurst=hurst) for hurst in (0.7, 0.8)], "law")
     options = {"stiffness_range": (0.03, 0.3), **LIMITS, **BOOTSTRAP}
     table = calibrated(pd.DataFrame(rows), law, conventions=SHOWN | {"gamma": "with"}, **options)
@@ -87,7 +87,7 @@ def test_lines_of_self_affine_roughness_have_the_exponent_of_the_paper():
     roughness leave. The halves of the window have twice the error and twice the limit.
     """
     curves = [reduce(self_affine_line(0.7, 2**14, seed=realization_seed(1, 3, i))) for i in range(40)]
-    rows = fitted(aggregate(curves, {"line": 1.0}, 1.0, X, hurst=0.7, case="lines"), source="lines")
+    rows = fitted(aggregate(curves, {"line": 1.0}, 1.0, X, hurst=0.7, ensemble="lines"), source="lines")
     by_window = {row["window_rule"]: row for row in rows if row["average"] == "geometric"}
     for window, error in (("default", 0.03), ("lower_half", 0.06), ("upper_half", 0.06)):
         assert by_window[window]["beta"] == pytest.approx(reference.exponent_beta(0.7), abs=error)

@@ -65,6 +65,6 @@ def test_table_has_a_row_for_each_group_of_the_pool():
         seed=1,
     )
     assert list(table) == list(COLUMNS)
-    rows = list(table[["case_group", "hurst"]].itertuples(index=False, name=None))
+    rows = list(table[["group", "hurst"]].itertuples(index=False, name=None))
     assert rows == [(group, hurst) for group in ("base", "longer_period") for hurst in (0.4, 0.6, 0.9)]
     assert table["half_spread"].max() < 0.02

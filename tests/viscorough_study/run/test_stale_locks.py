@@ -36,7 +36,8 @@ def test_locks_are_kept_while_any_other_process_lives(tmp_path, monkeypatch, cap
 JOB = """
 from types import SimpleNamespace
 from viscorough_study.run.job_log import run_job
-job = SimpleNamespace(log=["job.log"], rule="reduce_lines", input={}, output={"curves": "a.nc"}, params={})
+files = {"log": ["job.log"], "input": {}, "output": {"curves": "a.nc"}}
+job = SimpleNamespace(**files, rule="reduce_lines", params={}, resources={})
 run_job({"snakemake": job}, lambda curves: (print(flush=True), input()))
 """
 

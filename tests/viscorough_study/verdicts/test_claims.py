@@ -87,7 +87,7 @@ def test_fits_in_other_conventions_do_not_enter_a_verdict(table):
     scaling = sample.tables["scaling"]
     numbers = scaling.select_dtypes("number").columns.difference(["hurst", "realizations"])
     shown = {"average": "geometric", "window_rule": "default"}
-    others = [scaling.assign(**{name: "another"}) for name in (*shown, "rms_convention", "case_group")]
+    others = [scaling.assign(**{name: "another"}) for name in (*shown, "rms_convention", "group")]
     others = [other.assign(**{name: 3 * other[name] for name in numbers}) for other in others]
     sample.tables["scaling"] = pd.concat([scaling, *others], ignore_index=True)
     pd.testing.assert_frame_equal(judge(sample), table)
@@ -122,7 +122,7 @@ def test_assumptions_are_marked(table):
 
 def test_scatter_of_combinations_is_detected():
     wide = evidence()
-    first = wide.discs["case"] == "c0"
+    first = wide.discs["ensemble"] == "c0"
     wide.discs["stiffness"] = wide.discs["stiffness"] * xr.where(first, xr.DataArray(0 * X + 0.5, dims="abscissa"), 1)
     assert words(wide, "collapse") == {"collapse": "not"}
 

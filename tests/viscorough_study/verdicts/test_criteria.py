@@ -88,7 +88,7 @@ def test_claims_on_ensembles_of_few_realizations_are_undecided():
     many, few = evidence(scatter=0.1), evidence(scatter=0.1)
     for name in ("scaling", "local_slope", "zeta_laws"):
         few.tables[name]["realizations"] = 40
-    first = few.discs["case"].isin(["c0", "c1"]).values
+    first = few.discs["ensemble"].isin(["c0", "c1"]).values
     few = dataclasses.replace(few, discs=few.discs.isel(realization=np.flatnonzero(first)))
     for claim in (prefactors.zeta_elastic, curves.separation, curves.collapse, curves.power_law):
         assert "undecided" not in {case["verdict"] for case in judge(claim, many)}, claim.name
@@ -102,7 +102,7 @@ def test_case_without_a_value_is_undecided():
 
 def test_spread_of_slopes_decides_for_discs_and_for_the_control(sample):
     """The intervals are 0.01 to 0.03. The control has no power law, so the test should reject it."""
-    control = sample.tables["local_slope"].query("case_group == 'base'").assign(case_group="roll_off")
+    control = sample.tables["local_slope"].query("group == 'base'").assign(group="roll_off")
     sample.tables["local_slope"] = pd.concat([sample.tables["local_slope"], control], ignore_index=True)
     for tolerance, near, told in ((0.05, "holds", "not"), (0.02, *["undecided"] * 2)):
         assert {case["verdict"] for case in curves.power_law.judge(sample, tolerance)} == {near}

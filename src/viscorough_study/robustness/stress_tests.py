@@ -1,4 +1,4 @@
-"""Build the stress-test cases: indenters, loads, and parameters for all methods."""
+"""Build the stress tests: indenters, loads, and parameters for all methods."""
 
 from dataclasses import dataclass
 from functools import partial
@@ -16,15 +16,15 @@ ROLL_OFF = "the spectrum rolls off: there is no power law"
 
 
 @dataclass(frozen=True)
-class StressCase:
-    """A stress-test case: an indenter, its load, and the parameters of the methods.
+class StressTest:
+    """A stress test: an indenter, its load, and the parameters of the methods.
 
-    group, name : kind of case, and name of the case
+    group, name : kind of test, and name of the test
     hurst : Hurst exponent that the models (the power law, and a random line of the MDR) assume for the indenter
     fractions : contact fractions at the first and the last depth of the comparison
     body : body of revolution with a power-law profile that the indenter represents, for which the MDR is exact; or None
     tolerance : tolerance of loading curves; steps : number of explicit time steps
-    stated : documented reason why models do not apply to this case; empty if they apply
+    stated : documented reason why models do not apply to this test; empty if they apply
     medium : medium of the half-space under the force `load`; None for a constant force on a Newtonian medium
     load : samples (time, force) of the force on `medium`; the forces are scaled by a common factor
     """
@@ -42,8 +42,8 @@ class StressCase:
     load: tuple = ()
 
 
-def stress_cases(seed, across, grids, hurst_min):
-    """Yield all stress-test cases of the failure map, group by group.
+def stress_tests(seed, across, grids, hurst_min):
+    """Yield all stress tests of the failure map, group by group.
 
     seed : SeedSequence of the rough discs; across : number of elements across the maps
     grids : numbers of elements across the discs of the group "grid"
@@ -57,30 +57,30 @@ def stress_cases(seed, across, grids, hurst_min):
 
 
 def _disc_cases(disc, usual, grids, hurst_min):
-    """Yield cases of rough discs that differ in time steps, Hurst exponent, grid, contact fractions, or units.
+    """Yield tests of rough discs that differ in time steps, Hurst exponent, grid, contact fractions, or units.
 
     disc : function that generates a disc from a Hurst exponent
-    usual : the disc that most cases use, as the arguments `indenter` and `hurst` of StressCase
+    usual : the disc that most tests use, as the arguments `indenter` and `hurst` of StressTest
     """
     rough = usual["indenter"]
     for steps, name in ((256, "256 steps"), (16, "16 steps"), (1, "one step")):
-        yield StressCase("step size", name, **usual, steps=steps)
+        yield StressTest("step size", name, **usual, steps=steps)
     for hurst in (0.0, 0.2, 1.0):
         stated = f"Eq. 5 is said to hold above H = {hurst_min:g}" if hurst <= hurst_min else ""
-        yield StressCase("Hurst exponent", f"H = {hurst:g}", disc(hurst), hurst, stated=stated)
+        yield StressTest("Hurst exponent", f"H = {hurst:g}", disc(hurst), hurst, stated=stated)
     rolled_off = disc(0.7, roll_off_wavelength=0.2, roll_off_level=1.0)
-    yield StressCase("Hurst exponent", "H = 0.7, roll-off", rolled_off, 0.7, stated=ROLL_OFF)
+    yield StressTest("Hurst exponent", "H = 0.7, roll-off", rolled_off, 0.7, stated=ROLL_OFF)
     for n in grids:
         fractions = (0.05, 0.5) if n < 65 else (30 / n**2, 300 / n**2)
-        yield StressCase("grid", f"{n} elements across", disc(0.7, elements_across=n), 0.7, fractions, steps=64)
-    yield StressCase("contact", "up to 2 elements", **usual, fractions=(1 / rough.elements, 2 / rough.elements))
-    yield StressCase("contact", "past all elements", **usual, fractions=(0.9, 1.1), stated=COMPLETE)
-    yield StressCase("units", "heights 1e-12, spacing 1e12", Indenter(1e-12 * rough.heights, 1e12 * rough.spacing), 0.7)
-    yield StressCase("tolerance", "1e-14", **usual, tolerance=1e-14)
+        yield StressTest("grid", f"{n} elements across", disc(0.7, elements_across=n), 0.7, fractions, steps=64)
+    yield StressTest("contact", "up to 2 elements", **usual, fractions=(1 / rough.elements, 2 / rough.elements))
+    yield StressTest("contact", "past all elements", **usual, fractions=(0.9, 1.1), stated=COMPLETE)
+    yield StressTest("units", "heights 1e-12, spacing 1e12", Indenter(1e-12 * rough.heights, 1e12 * rough.spacing), 0.7)
+    yield StressTest("tolerance", "1e-14", **usual, tolerance=1e-14)
 
 
 def _shape_cases(across):
-    """Yield cases of bodies of revolution, and of indenters that are not self-affine.
+    """Yield tests of bodies of revolution, and of indenters that are not self-affine.
 
     x and y extend from −1 to 1. Heights are 0.1 times the functions of x and y.
     """
@@ -88,10 +88,10 @@ def _shape_cases(across):
     radius = np.hypot(x[:, None], x)
 
     def shaped(name, heights, **options):
-        return StressCase("shape", name, Indenter(0.1 * heights, 2 / across), stated=NOT_SELF_AFFINE, **options)
+        return StressTest("shape", name, Indenter(0.1 * heights, 2 / across), stated=NOT_SELF_AFFINE, **options)
 
     sphere = Indenter(-0.1 * radius**2 / 2, 2 / across)
-    yield StressCase("shape", "sphere", sphere, body=reference.PowerLawBody(0.05, 2))
+    yield StressTest("shape", "sphere", sphere, body=reference.PowerLawBody(0.05, 2))
     yield shaped("ridge", np.tile(-(x**2), (across, 1)))
     yield shaped("tilted plane", x[:, None] + x / 2)
     yield shaped("steep: slope 20", -200 * radius)
@@ -100,16 +100,16 @@ def _shape_cases(across):
 
 
 def _load_cases(usual):
-    """Yield cases of one disc under forces that vary, in a Newtonian medium and in viscoelastic media.
+    """Yield tests of one disc under forces that vary, in a Newtonian medium and in viscoelastic media.
 
     Times are from 0 to 1; a repeated time marks a step of the force.
-    usual : the disc, as the arguments `indenter` and `hurst` of StressCase
+    usual : the disc, as the arguments `indenter` and `hurst` of StressTest
     """
     pulses = ((0, 0), (0.1, 1), (0.2, 0), (0.5, 0), (0.6, 1), (0.7, 0), (0.9, 0), (1, 1))
     pull = ((0, 1), (0.4, 1), (0.6, -0.1), (1, 1))
     unloading = ((0, 0), (0.4, 1), (0.5, 0.3), (1, 0.3))
-    yield StressCase("load", "pulses with rests", **usual, medium=Newtonian(1.0), load=pulses)
-    yield StressCase("load", "negative for a while", **usual, medium=Newtonian(1.0), load=pull)
-    yield StressCase("load", "Maxwell, step", **usual, medium=Maxwell(1.0, 0.5), load=((0, 1), (1, 1)))
+    yield StressTest("load", "pulses with rests", **usual, medium=Newtonian(1.0), load=pulses)
+    yield StressTest("load", "negative for a while", **usual, medium=Newtonian(1.0), load=pull)
+    yield StressTest("load", "Maxwell, step", **usual, medium=Maxwell(1.0, 0.5), load=((0, 1), (1, 1)))
     solid = StandardLinearSolid(3.0, 1.0, 0.3)
-    yield StressCase("load", "solid, unloading", **usual, medium=solid, load=unloading)
+    yield StressTest("load", "solid, unloading", **usual, medium=solid, load=unloading)

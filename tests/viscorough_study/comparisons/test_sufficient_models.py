@@ -33,6 +33,7 @@ def test_the_worst_hurst_exponent_decides_on_error_and_time():
     rows = chosen(grids())
     assert rows.loc[0.2, ["model", "setting"]].tolist() == ["viscorough.indent", "129 × 129 points, tolerance=0.1"]
     assert rows.loc[0.2, ["error", "processor_s"]].tolist() == [0.06, 0.1]
+    assert set(rows.index) == {0.2, 0.1, 0.05, 0.01}
     rows = chosen(grids(coarse=(0.15, 0.19)))
     assert rows.loc[0.2, "setting"] == "33 × 33 points, tolerance=0.1"
     assert rows.loc[0.2, "hurst"] == "0.4, 0.8"

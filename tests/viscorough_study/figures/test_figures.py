@@ -33,6 +33,32 @@ def test_figure_of_no_rows_says_so(plot):
     assert text.get_text() == "no data with these settings"
 
 
+def combinations(**values):
+    """Return the table of all combinations of the values of columns."""
+    return pd.MultiIndex.from_product(values.values(), names=values).to_frame(index=False)
+
+
+MEDIA = combinations(medium=["newtonian", "maxwell"], hurst=[0.4, 0.9], time=[0.1, 1.0, 10.0], realizations=[6])
+GRIDS = combinations(quantity=["force", "area"], case=["sphere", "cone"], elements=[33, 65], passed=[True])
+
+
+@pytest.mark.parametrize(
+    ("plot", "table", "panel", "x", "y"),
+    [
+        (plot_media, MEDIA, "medium", "time", "velocity"),
+        (plot_validation, GRIDS, "quantity", "elements", "error"),
+    ],
+)
+def test_panels_show_the_numbers_of_their_rows(plot, table, panel, x, y):
+    numbers = {"x": 0.01, "depth": 1.0, "expected_order": 1.0, "observed_order": 1.0, "limit": 0.1}
+    table = table.assign(**numbers, **{y: np.random.default_rng(1).uniform(0.5, 2, len(table))})
+    figure = plot(table)
+    for axes, (_, rows) in zip(figure.axes, table.groupby(panel, sort=False), strict=False):
+        shown = drawn_points(axes)
+        for point in rows[[x, y]].to_numpy():
+            assert np.isclose(shown, point, rtol=1e-9).all(axis=1).any(), point
+
+
 def test_exponents_and_their_intervals_are_those_of_the_fits(scaling):
     axes = plot_exponent(scaling, SHOWN, (0.4, 1.0), FINE).axes[0]
     shown = drawn_points(axes)

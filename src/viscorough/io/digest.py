@@ -75,7 +75,7 @@ def content_digest(file: netCDF4.Dataset) -> str:
                     for value in values.flat:
                         add_line(value)
                 else:
-                    digest.update(values.astype(kind, copy=False).tobytes())
+                    digest.update(np.ascontiguousarray(values, dtype=kind).data)
     return digest.hexdigest()
 
 

@@ -25,18 +25,23 @@ def write_surfaces(ensembles, path, **attributes):
         for position, (settings, number, surfaces) in enumerate(ensembles):
             group = file.createGroup(f"ensemble_{position}")
             group.createDimension("realization", number)
-            for i, (realization, indenter) in enumerate(surfaces):
-                if i == 0:
+            realizations = []
+            for realization, indenter in surfaces:
+                if not realizations:
                     group.setncatts({"title": realization.ensemble, "settings": json.dumps(settings)})
-                    _define(group, realization, indenter)
-                group["number"][i] = realization.number
-                group["heights"][i] = indenter.heights
-                for name, height in realization.rms.items():
-                    group[f"rms_{name}"][i] = height
+                    heights = _define(group, realization, indenter)
+                heights[len(realizations)] = indenter.heights
+                realizations.append(realization)
+            group["number"][:] = [realization.number for realization in realizations]
+            for name in realizations[0].rms:
+                group[f"rms_{name}"][:] = [realization.rms[name] for realization in realizations]
 
 
 def _define(group, realization, indenter):
-    """Define the variables of an ensemble in its NetCDF group, and write the values that all realizations share."""
+    """Define the variables of an ensemble in its NetCDF group, and write the values that all realizations share.
+
+    Returns the variable of the heights.
+    """
 
     def variable(name, dimensions, long_name, units=indenter.length_unit, **kind):
         stored = group.createVariable(name, kind.pop("kind", "f8"), dimensions, **kind)
@@ -53,7 +58,7 @@ def _define(group, realization, indenter):
     variable("number", "realization", "number of the realization", "1", kind="i8")
     for name in realization.rms:
         variable(f"rms_{name}", "realization", RMS[name])
-    variable("heights", ("realization", "y", "x"), "height", kind=indenter.heights.dtype, fill_value=np.nan)
+    return variable("heights", ("realization", "y", "x"), "height", kind=indenter.heights.dtype, fill_value=np.nan)
 
 
 def read_surfaces(path):
@@ -66,8 +71,10 @@ def read_surfaces(path):
         for group in file.groups.values():
             names = ("hurst", "diameter", "spacing_x", "spacing_y")
             hurst, diameter, spacing, row_spacing = (group[name][...].item() for name in names)
+            rms = {name: group[f"rms_{name}"][...].tolist() for name in RMS if f"rms_{name}" in group.variables}
+            settings, heights = json.loads(group.settings), group["heights"]
+            unit = heights.units
             for i, number in enumerate(group["number"][...].tolist()):
-                rms = {name: group[f"rms_{name}"][i].item() for name in RMS if f"rms_{name}" in group.variables}
-                realization = Realization(group.title, number, hurst, diameter, spacing, rms)
-                indenter = Indenter(group["heights"][i], spacing, row_spacing, group["heights"].units)
-                yield json.loads(group.settings), realization, indenter
+                own = {name: every[i] for name, every in rms.items()}
+                realization = Realization(group.title, number, hurst, diameter, spacing, own)
+                yield settings, realization, Indenter(heights[i], spacing, row_spacing, unit)

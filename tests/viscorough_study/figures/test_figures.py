@@ -39,7 +39,7 @@ def combinations(**values):
 
 
 MEDIA = combinations(medium=["newtonian", "maxwell"], hurst=[0.4, 0.9], time=[0.1, 1.0, 10.0], realizations=[6])
-GRIDS = combinations(quantity=["force", "area"], case=["sphere", "cone"], elements=[33, 65], passed=[True])
+GRIDS = combinations(quantity=["force", "area"], comparison=["sphere", "cone"], elements=[33, 65], passed=[True])
 
 
 @pytest.mark.parametrize(

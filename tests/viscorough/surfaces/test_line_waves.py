@@ -3,6 +3,7 @@
 import numpy as np
 from scipy import stats
 
+from viscorough.surfaces import line_waves
 from viscorough.surfaces.line_waves import key_of, random_words, shortest_wave, waves
 
 KEY = key_of(np.random.SeedSequence(7))
@@ -50,3 +51,9 @@ def test_shortest_wave_has_the_same_mean_power_as_the_others():
     fixed = np.array([shortest_wave(8, key, 3.0, fixed=True) for key in keys])
     np.testing.assert_allclose(abs(fixed), 3, rtol=1e-15)
     assert abs(np.mean(np.sign(fixed))) < 4 / np.sqrt(len(keys))
+
+
+def test_smallest_and_largest_moduli_are_finite():
+    size, modulus = np.array([0, 1, 2**31, 2**32 - 1], np.uint32), np.empty(4, np.float32)
+    line_waves._moduli(size, np.ones(4, np.float32), modulus)
+    np.testing.assert_allclose(modulus, np.sqrt(-2 * np.log((size + 0.5) * 2.0**-32)), rtol=3e-7, atol=3e-4)

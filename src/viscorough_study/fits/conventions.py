@@ -32,7 +32,6 @@ FITTED = {
     "window_rule": ("default", "lower_half", "upper_half", "kappa"),
 }
 GAMMA = ("without", "with")
-VALUES = FITTED | {"gamma": GAMMA}  # {convention: its allowed values}
 
 
 def zeta_scale(beta, gamma):

@@ -5,7 +5,7 @@ interval under the same name with the suffixes _low and _high.
 """
 
 import numpy as np
-from scipy.special import gammaincinv, ndtr, stdtrit
+from scipy.special import ndtr, stdtrit
 
 UNDEFINED = (np.nan, np.nan, np.nan)  # (value, low, high) of a quantity that cannot be computed
 NO_INTERVAL = (np.nan, np.nan)  # (low, high) of a quantity without statistical scatter
@@ -82,15 +82,6 @@ def mean_with_interval(samples):
     mean, number = samples.mean(axis=0), len(samples)
     error = stdtrit(number - 1, 0.975) * samples.std(axis=0, ddof=1) / np.sqrt(number) if number > 1 else np.nan
     return mean, mean - error, mean + error
-
-
-def deviation_interval(deviation, freedom):
-    """Return a standard deviation of normal samples and its 95 % interval by the χ² distribution: (value, low, high).
-
-    freedom : degrees of freedom of the standard deviation; both ends are nan for 0
-    """
-    ends = deviation * np.sqrt(freedom / (2 * gammaincinv(freedom / 2, [0.975, 0.025]))) if freedom else NO_INTERVAL
-    return deviation, *ends
 
 
 def equivalence(interval, low, high):

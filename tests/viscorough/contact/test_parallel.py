@@ -26,11 +26,13 @@ def test_errors_in_a_block_are_raised(threads):
 def test_curve_and_contact_do_not_depend_on_the_number_of_threads():
     disc = self_affine_disc(0.8, 401, seed=1)  # a disc of several blocks
     for compute in (partial(indent, until_fraction=0.1), partial(contact_at, force=1.0, tolerance=1e-6)):
-        assert compute(disc, threads=1) == compute(disc, threads=3)
+        one, three = (vars(compute(disc, threads=threads)) for threads in (1, 3))
+        for name, value in one.items():
+            np.testing.assert_array_equal(three[name], value, err_msg=name)
 
 
 @pytest.mark.parametrize("threads", [0, 1.0, None, True, 1025])
 def test_invalid_numbers_of_threads_are_refused(threads):
     for compute in (indent, partial(contact_at, depth=1.0)):
-        with pytest.raises(ValueError, match="threads must be a whole number from 1 to 1024, not "):
+        with pytest.raises(ValueError, match="threads: must be a whole number from 1 to 1024, not "):
             compute(Indenter(np.zeros((3, 3)), 1.0), threads=threads)

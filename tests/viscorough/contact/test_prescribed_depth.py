@@ -59,7 +59,7 @@ def test_invalid_options_are_refused():
     for wrong, message in (
         ({"precision": "half"}, "precision: must be one of single, double, not 'half'"),
         ({"operator_rounding": -1.0}, "operator_rounding: must not be negative"),
-        ({"operator_rounding": np.nan}, "operator_rounding: nan; a finite number is needed"),
+        ({"operator_rounding": np.nan}, "operator_rounding: nan; one finite number is needed"),
         ({"max_iterations": 0}, "max_iterations: must be a whole number of at least 1"),
     ):
         with pytest.raises(ValueError, match=message):

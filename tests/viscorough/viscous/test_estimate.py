@@ -61,8 +61,8 @@ def test_law_gives_no_numbers_outside_its_range():
 def test_values_outside_their_ranges_are_refused():
     right = {"hurst": 0.6, "rms": RMS, "diameter": DIAMETER, "force": PER_X, "medium": 1.0, "times": [0.02]}
     for changes, what in (
-        ({"hurst": 1.05}, "hurst of the penetration law: must be from 0.1 to 1"),
-        ({"force": np.inf}, "force: must be positive and finite"),
+        ({"hurst": 1.05}, "hurst: must be from 0.1 to 1 for the penetration law"),
+        ({"force": np.inf}, "force: must be a positive number, not inf"),
         ({"medium": 0}, "medium: 0; allowed: a medium as viscorough.Maxwell, or the viscosity of a Newtonian one"),
         ({"times": [2, 1]}, "times: allowed is one row"),
         ({"times": [5e3]}, f"X = F·J(t)/(4hL) is 5000; allowed: {LAW.x_low:.3g} to {LAW.x_high:.3g}, where"),

@@ -70,7 +70,9 @@ def test_contacts_do_not_depend_on_the_division_into_blocks(tolerance, monkeypat
         monkeypatch.setattr(module, "BLOCK", 64)
     monkeypatch.setattr(GridLoops, "over", lambda self, array, function: run_blocks(function, array.size, 3, 64))
     contacts, curve = contact_at(disc, threads=3, **given), indent(disc, tolerance=tolerance, threads=3)
-    assert contacts == contact_at(disc, **given)  # on one thread
+    for contact, alone in zip(contacts, contact_at(disc, **given), strict=True):  # on one thread
+        np.testing.assert_array_equal(contact.pressure, alone.pressure)
+        np.testing.assert_array_equal(contact.gap, alone.gap)
     for contact, whole in zip(contacts, expected, strict=True):
         assert contact.force == pytest.approx(whole.force, rel=0.1 * tolerance)
         np.testing.assert_allclose(contact.gap, whole.gap, rtol=0, atol=2 * tolerance * contact.depth)

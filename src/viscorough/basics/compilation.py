@@ -8,9 +8,11 @@ numba is used: options of its decorators, its configuration, and its events.
 import contextlib
 import fcntl
 import functools
+import gc
 import logging
 import sys
 import tempfile
+import threading
 from collections.abc import Callable
 from pathlib import Path
 from typing import IO, Any
@@ -84,18 +86,25 @@ def _announce_compilation() -> None:
 
 
 class _Compilation(event.Listener):
-    """Listener that announces the compiler, and lets one process at a time store compiled code.
+    """Listener that announces the compiler, lets one process at a time store code, and defers garbage collection.
 
     numba stores code after the end of a compilation, in two files: an index of the types of arguments, and the code. If
     two processes stored code for different types at the same time, the index of one process could lead to the code of
-    the other. Therefore a file is locked from the end of a compilation until numba releases its own lock.
+    the other. Therefore a file is locked from the end of a compilation until numba releases its own lock. Garbage
+    collection would take a tenth of the time in which numba compiles or loads code.
     """
 
     def __init__(self) -> None:
         self._file: IO[str] | None = None
+        self._depth, self._collects = 0, False
 
     def on_start(self, event: event.Event) -> None:
-        if _is_ours(event):
+        if event.kind == "numba:compiler_lock" and threading.current_thread() is threading.main_thread():
+            if self._depth == 0:
+                self._collects = gc.isenabled()
+                gc.disable()
+            self._depth += 1
+        elif _is_ours(event):
             _announce_compilation()
 
     def on_end(self, event: event.Event) -> None:
@@ -103,6 +112,10 @@ class _Compilation(event.Listener):
             if self._file:
                 self._file.close()
             self._file = None
+            if threading.current_thread() is threading.main_thread():
+                self._depth -= 1
+                if self._depth == 0 and self._collects:
+                    gc.enable()
         elif not self._file and _is_ours(event) and (folder := _writable_folder()):
             with contextlib.suppress(OSError):  # for example if the file system has no locks
                 self._file = (folder / "lock").open("w")

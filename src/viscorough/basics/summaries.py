@@ -1,8 +1,6 @@
 """Format numbers and units for the short texts about results that print() and notebooks show."""
 
-import base64
 import contextlib
-import html
 import io
 import re
 from importlib import import_module
@@ -13,6 +11,9 @@ class InNotebooks:
     """Result that notebooks show as a small table of its text, beside its plot if matplotlib is installed."""
 
     def _repr_html_(self: Any) -> str:
+        import base64  # imported here, so that the command line starts faster
+        import html
+
         title, *lines = str(self).splitlines()
         entries = (re.split(r" (?=[-\d])", entry, maxsplit=1) for line in lines for entry in line.split(", "))
         cells = ("".join(f"<td>{html.escape(cell)}</td>" for cell in entry) for entry in entries)

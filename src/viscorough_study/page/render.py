@@ -70,7 +70,8 @@ def formulas(text):
         tex(TYPESET[part]) if part in TYPESET else part.replace(" = ", "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}")
         for part in parts
     )
-    return Markup(re.sub("`(.*?)`", r"<code>\1</code>", typeset))
+    # A Markup, whose `join` re.sub uses, would escape what replaces a match.
+    return Markup(re.sub("`(.*?)`", r"<code>\1</code>", str(typeset)))
 
 
 def begun(text):

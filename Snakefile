@@ -24,19 +24,19 @@ config.update(settings)
 report: "workflow/report/workflow.rst"
 
 
-DISCS = cases.disc_cases(config)
-LINES = cases.line_cases(config)
-NESTED = cases.nested_cases(config)
-CASES = {"discs": DISCS, "lines": LINES, "measured": MEASURED}
+DISCS = samples.disc_samples(config)
+LINES = samples.line_samples(config)
+NESTED = samples.nested_samples(config)
+SAMPLES = {"discs": DISCS, "lines": LINES, "measured": MEASURED}
 
 
 wildcard_constraints:
     kind="discs|measured",
-    case="|".join([*DISCS, *MEASURED]),
+    sample="|".join([*DISCS, *MEASURED]),
     line="|".join(LINES),
     nested="|".join(NESTED) or "no_grid",
     scan="|".join(MEASURED) or "no_scan",
-    pool="|".join(cases.POOLS),
+    pool="|".join(samples.POOLS),
     batch=r"\d{4}-\d{4}",
     format="png|pdf",
 

@@ -1,4 +1,4 @@
-"""Cases of the tests of the figures, and the contents of a drawn figure."""
+"""Inputs of the tests of the figures, and the contents of a drawn figure."""
 
 import numpy as np
 

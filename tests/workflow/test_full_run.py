@@ -30,7 +30,7 @@ def test_every_figure_and_table_is_made(finished_once):
 def test_files_follow_the_cf_conventions(finished_once):
     """The test checks a file of every kind: curves of discs and lines, pools, examples."""
     files = [path for path in (finished_once / "results").rglob("*.nc") if "curves" not in path.parts]
-    files += [finished_once / f"results/curves/{case}/0000-0001.nc" for case in ("discs/h04000", "lines/h04000")]
+    files += [finished_once / f"results/curves/{sample}/0000-0001.nc" for sample in ("discs/h04000", "lines/h04000")]
     assert len(files) == 3 + 1 + 2
     for path in files:
         assert violations(path) == [], path

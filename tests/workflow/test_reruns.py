@@ -87,8 +87,8 @@ def test_changed_lines_rerun_no_rule_that_uses_only_discs(finished_once, tmp_pat
 def test_further_exponent_reruns_only_its_dependents(finished_once, tmp_path):
     more = settings_file(tmp_path, "more", hurst=[0.9, 0.4, 0.6])
     text = snakemake(finished_once, "--dry-run", *TEST, more)
-    cases = set(re.findall(r"^Job \d+: .*\b(h\d{5}\w*)", text, re.MULTILINE))
-    assert cases == {"h06000", "h06000_longer_period", "h06000_roll_off"}
+    names = set(re.findall(r"^Job \d+: .*\b(h\d{5}\w*)", text, re.MULTILINE))
+    assert names == {"h06000", "h06000_longer_period", "h06000_roll_off"}
     planned = jobs(text)
     assert (planned["indent_surfaces"], planned["reduce_lines"], planned["aggregate_curves"]) == (5, 2, 3)
     assert "tabulate_validation" not in planned

@@ -13,7 +13,7 @@ rule compare_periodic:
     conda:
         "../envs/viscorough.yaml"
     resources:
-        mem_mb=cases.grid_memory(config["beyond"]["periodic"]["points"], config["beyond"]["periodic"]["surfaces"]),
+        mem_mb=samples.grid_memory(config["beyond"]["periodic"]["points"], config["beyond"]["periodic"]["surfaces"]),
     params:
         **config["beyond"]["periodic"],
         hursts=config["hurst"],
@@ -36,7 +36,7 @@ rule compare_reduction:
     conda:
         "../envs/viscorough.yaml"
     resources:
-        mem_mb=cases.grid_memory(config["discs"]["elements"]),
+        mem_mb=samples.grid_memory(config["discs"]["elements"]),
     params:
         **chosen("discs", "elements", "realizations"),
         **config["beyond"]["reduction"],
@@ -77,7 +77,7 @@ rule compare_histories:
 rule compute_media:
     """Kinetics in other media."""
     input:
-        curves=cases.combination_curves(DISCS),
+        curves=samples.combination_curves(DISCS),
     output:
         csv="results/tables/media.csv",
     log:
@@ -91,7 +91,7 @@ rule compute_media:
         mem_mb=1000,
     params:
         **config["kinetics"],
-        discs=cases.first_combination(config),
+        discs=samples.first_combination(config),
         rms_convention=SHOWN["rms_convention"],
         source=digest("compute_media"),
     message:

@@ -101,7 +101,7 @@ os.environ.setdefault("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1")  # use large p
 try:
     use_packages_of_checkout()
     from viscorough_study.fits.fine_sentence import judged_rows
-    from viscorough_study.run import cases
+    from viscorough_study.run import samples
     from viscorough_study.run.kernels import compile_once
     from viscorough_study.run.made_with import difference, origin
     from viscorough_study.run.names import SHOWN
@@ -164,13 +164,13 @@ if workflow.is_main_process:
 
 
 def with_scans(settings):
-    """Check settings; return them in the form in which the workflow uses them, and the cases of scans."""
+    """Check settings; return them in the form in which the workflow uses them, and the samples of scans."""
     settings = check_settings(settings)
     return settings, scans(settings["measured"], settings["curves"])
 
 
 def complete(given, files):
-    """Complete and check the settings; return them and the cases of scans. End the run if a setting is wrong."""
+    """Complete and check the settings; return them and the samples of scans. End the run if a setting is wrong."""
     try:
         return complete_settings(PROJECT / "config" / "config.yaml", given, files, with_scans)
     except ValueError as error:
@@ -215,25 +215,25 @@ def paper(name):
     return read_paper(PROJECT / "resources" / "paper", name)
 
 
-# ---- inputs, params and memory of jobs, by case and by pool
+# ---- inputs, params and memory of jobs, by sample and by pool
 
 
-def batch_ensembles(table, case, batch):
-    """Return the ensembles in a batch of a case, see `cases.batch_ensembles`; end the run if there is no such batch."""
-    if batch not in (existing := cases.batches(table[case])):
-        end_run(f"batch {batch} of {case} is not one of the settings; allowed: {', '.join(existing)}")
-    return cases.batch_ensembles(table[case], batch)
+def batch_ensembles(table, sample, batch):
+    """Return the ensembles in a batch of a sample, see `samples.batch_ensembles`; end the run if there is no such batch."""
+    if batch not in (existing := samples.batches(table[sample])):
+        end_run(f"batch {batch} of {sample} is not one of the settings; allowed: {', '.join(existing)}")
+    return samples.batch_ensembles(table[sample], batch)
 
 
 def fine_curves():
     """Return the files of the curves of discs on several grids; end the run if the settings name no such discs."""
     if not NESTED:
         end_run("fine_grids.ensembles is empty; give --configfile config/fine_grids.yaml, or run `make fine-grids`")
-    return cases.nested_files(NESTED)
+    return samples.nested_files(NESTED)
 
 
 def scan_value(name):
-    """Return a function of the wildcards, for input or params, that returns a value from the case of a scan."""
+    """Return a function of the wildcards, for input or params, that returns a value from the sample of a scan."""
     return lambda wildcards: MEASURED[wildcards.scan][name]
 
 
@@ -243,14 +243,14 @@ def surfaces_origin(wildcards):
     The files of surfaces are temporary, so no other file states these params.
     """
     if wildcards.kind == "measured":
-        made_from = {name: MEASURED[wildcards.case][name] for name in ("spacing", "unit", "preparation", "digest")}
+        made_from = {name: MEASURED[wildcards.sample][name] for name in ("spacing", "unit", "preparation", "digest")}
         return made_from | {"source": digest("prepare_measured")}
-    ensembles = batch_ensembles(DISCS, wildcards.case, wildcards.batch)
+    ensembles = batch_ensembles(DISCS, wildcards.sample, wildcards.batch)
     return {"ensembles": ensembles, "seed": config["seed"], "source": digest("generate_discs")}
 
 
 def indentation_memory(wildcards, attempt):
     """Return the memory [MB] of a job that indents the surfaces of a batch; more if a try had too little."""
-    case = CASES[wildcards.kind][wildcards.case]
-    memory = cases.measured_memory(case) if wildcards.kind == "measured" else cases.disc_memory(case)
+    sample = SAMPLES[wildcards.kind][wildcards.sample]
+    memory = samples.measured_memory(sample) if wildcards.kind == "measured" else samples.disc_memory(sample)
     return attempt * memory

@@ -124,7 +124,7 @@ rule evaluate_measured:
     """Power laws and kinetics of measured surfaces."""
     input:
         pool="results/ensembles/measured.nc",
-        curves=cases.pool_curves(CASES, "measured"),
+        curves=samples.pool_curves(SAMPLES, "measured"),
     output:
         csv=[
             "results/tables/measured_scans.csv",

@@ -1,5 +1,5 @@
 # Rules that compute elastic loading curves: of surfaces by boundary elements, of lines by the method of dimensionality
-# reduction. A further rule makes ensembles: it brings the realizations of all cases in a pool to common abscissae.
+# reduction. A further rule makes ensembles: it brings the realizations of all samples in a pool to common abscissae.
 
 
 rule indent_surfaces:
@@ -7,23 +7,23 @@ rule indent_surfaces:
         # These files are temporary and usually missing, but this rule must be rerun when the rule that makes them has
         # changed. If they were marked as ancient, existing files would not cause a rerun, and Snakemake would end
         # without an error and without the dependent results.
-        surfaces="results/surfaces/{kind}/{case}/{batch}.nc",
+        surfaces="results/surfaces/{kind}/{sample}/{batch}.nc",
     output:
-        curves="results/curves/{kind}/{case}/{batch}.nc",
+        curves="results/curves/{kind}/{sample}/{batch}.nc",
     log:
-        "results/logs/indent_surfaces/{kind}/{case}/{batch}.log",
+        "results/logs/indent_surfaces/{kind}/{sample}/{batch}.log",
     benchmark:
-        "results/benchmarks/indent_surfaces/{kind}/{case}/{batch}.tsv"
+        "results/benchmarks/indent_surfaces/{kind}/{sample}/{batch}.tsv"
     priority: 2  # indent the surfaces of a batch before the next batch is generated, which frees their disk space
     conda:
         "../envs/viscorough.yaml"
     resources:
         mem_mb=indentation_memory,
     params:
-        indentation=lambda wildcards: CASES[wildcards.kind][wildcards.case]["indentation"],
+        indentation=lambda wildcards: SAMPLES[wildcards.kind][wildcards.sample]["indentation"],
         source=lambda wildcards: [digest("indent_surfaces"), surfaces_origin(wildcards)],
     message:
-        "Boundary elements, {wildcards.kind} {wildcards.case}, realizations {wildcards.batch}"
+        "Boundary elements, {wildcards.kind} {wildcards.sample}, realizations {wildcards.batch}"
     script:
         "../scripts/indent_surfaces.py"
 
@@ -40,7 +40,7 @@ rule reduce_lines:
     conda:
         "../envs/viscorough.yaml"
     resources:
-        mem_mb=lambda wildcards: cases.line_memory(LINES[wildcards.line]),
+        mem_mb=lambda wildcards: samples.line_memory(LINES[wildcards.line]),
     params:
         ensembles=lambda wildcards: batch_ensembles(LINES, wildcards.line, wildcards.batch),
         seed=config["seed"],
@@ -64,9 +64,9 @@ rule indent_nested:
     conda:
         "../envs/viscorough.yaml"
     resources:
-        mem_mb=lambda wildcards, attempt: attempt * cases.nested_memory(NESTED[wildcards.nested]),
+        mem_mb=lambda wildcards, attempt: attempt * samples.nested_memory(NESTED[wildcards.nested]),
     params:
-        case=lambda wildcards: cases.nested_arguments(NESTED[wildcards.nested], wildcards.batch),
+        sample=lambda wildcards: samples.nested_arguments(NESTED[wildcards.nested], wildcards.batch),
         tolerance=config["curves"]["tolerance"],
         seed=config["seed"],
         source=digest("indent_nested"),
@@ -78,7 +78,7 @@ rule indent_nested:
 
 rule aggregate_curves:
     input:
-        curves=lambda wildcards: cases.pool_curves(CASES, wildcards.pool),
+        curves=lambda wildcards: samples.pool_curves(SAMPLES, wildcards.pool),
     output:
         pool="results/ensembles/{pool}.nc",
     log:
@@ -90,10 +90,10 @@ rule aggregate_curves:
     conda:
         "../envs/viscorough.yaml"
     resources:
-        mem_mb=lambda wildcards: cases.pool_memory(CASES, wildcards.pool, config["curves"]),
+        mem_mb=lambda wildcards: samples.pool_memory(SAMPLES, wildcards.pool, config["curves"]),
     params:
-        groups=lambda wildcards: cases.pool_groups(CASES, wildcards.pool),
-        conventions=lambda wildcards: cases.POOLS[wildcards.pool],
+        groups=lambda wildcards: samples.pool_groups(SAMPLES, wildcards.pool),
+        conventions=lambda wildcards: samples.POOLS[wildcards.pool],
         ensemble=chosen("curves", "x_low", "per_decade") | {"x_high": config["curves"]["until_x"]},
         source=digest("aggregate_curves"),
     message:
@@ -105,5 +105,5 @@ rule aggregate_curves:
 rule curves:
     """The loading curves of the discs and lines of Figures 2 to 4, and of their variants."""
     input:
-        cases.pool_curves(CASES, "discs"),
-        cases.pool_curves(CASES, "lines"),
+        samples.pool_curves(SAMPLES, "discs"),
+        samples.pool_curves(SAMPLES, "lines"),

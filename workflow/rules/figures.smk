@@ -51,7 +51,7 @@ use rule plot_surfaces as plot_kinetics with:
         figure="kinetics",
         options={
             "combinations": {
-                name: ensemble["combination"] for name, ensemble in cases.combined_ensembles(config).items()
+                name: ensemble["combination"] for name, ensemble in samples.combined_ensembles(config).items()
             },
             "conventions": SHOWN,
             "fraction_min": config["scaling"]["fraction_min"],

@@ -106,7 +106,7 @@ rule make_page:
         mem_mb=1000,
     params:
         numbers=paper("numbers"),
-        combinations={name: ensemble["combination"] for name, ensemble in cases.combined_ensembles(config).items()},
+        combinations={name: ensemble["combination"] for name, ensemble in samples.combined_ensembles(config).items()},
         fraction_min=config["scaling"]["fraction_min"],
         made_by=PAGE_TABLES,
         changed=changed_settings(check_settings(read_yaml("config/config.yaml")), config),

@@ -6,22 +6,22 @@
 
 rule generate_discs:
     output:
-        surfaces=temp("results/surfaces/discs/{case}/{batch}.nc"),
+        surfaces=temp("results/surfaces/discs/{sample}/{batch}.nc"),
     log:
-        "results/logs/generate_discs/{case}/{batch}.log",
+        "results/logs/generate_discs/{sample}/{batch}.log",
     benchmark:
-        "results/benchmarks/generate_discs/{case}/{batch}.tsv"
+        "results/benchmarks/generate_discs/{sample}/{batch}.tsv"
     priority: 1  # start the long jobs that indent the discs early; at the end, short jobs then share the cores evenly
     conda:
         "../envs/viscorough.yaml"
     resources:
-        mem_mb=lambda wildcards: cases.generation_memory(DISCS[wildcards.case]["ensembles"]),
+        mem_mb=lambda wildcards: samples.generation_memory(DISCS[wildcards.sample]["ensembles"]),
     params:
-        ensembles=lambda wildcards: batch_ensembles(DISCS, wildcards.case, wildcards.batch),
+        ensembles=lambda wildcards: batch_ensembles(DISCS, wildcards.sample, wildcards.batch),
         seed=config["seed"],
         source=digest("generate_discs"),
     message:
-        "Discs {wildcards.case}, realizations {wildcards.batch}"
+        "Discs {wildcards.sample}, realizations {wildcards.batch}"
     script:
         "../scripts/generate_discs.py"
 
@@ -36,9 +36,9 @@ use rule generate_discs as generate_examples with:
     conda:
         "../envs/viscorough.yaml"
     resources:
-        mem_mb=cases.generation_memory(cases.example_discs(config)),
+        mem_mb=samples.generation_memory(samples.example_discs(config)),
     params:
-        ensembles=cases.example_discs(config),
+        ensembles=samples.example_discs(config),
         seed=config["seed"],
         source=digest("generate_discs"),
     message:
@@ -59,7 +59,7 @@ rule prepare_measured:
     conda:
         "../envs/viscorough.yaml"
     resources:
-        mem_mb=lambda wildcards: cases.measured_memory(MEASURED[wildcards.scan]),
+        mem_mb=lambda wildcards: samples.measured_memory(MEASURED[wildcards.scan]),
     params:
         name=lambda wildcards: wildcards.scan,
         group=scan_value("group"),

@@ -18,7 +18,7 @@ rule measure_methods:
         mem_mb=8000,
     params:
         **chosen("methods", "levels", "repeats", "longest"),
-        problems=cases.method_problems(config),
+        problems=samples.method_problems(config),
         seed=config["seed"],
         source=digest("measure_methods"),
     message:
@@ -40,7 +40,7 @@ rule measure_one_surface:
         "../envs/viscorough.yaml"
     threads: ALL_CORES
     resources:
-        mem_mb=cases.grid_memory(config["methods"]["one_surface"]["elements"]),
+        mem_mb=samples.grid_memory(config["methods"]["one_surface"]["elements"]),
     params:
         **config["methods"]["one_surface"],
         hurst=[0.4, 0.8],

@@ -11,7 +11,7 @@ def main(surfaces, *, ensembles, seed):
     """Generate the discs of a batch, and write them to a file with lengths in the unit of each disc.
 
     surfaces : file to write
-    ensembles : settings of each ensemble and numbers of its discs in this batch, from `run.cases.batch_ensembles`
+    ensembles : settings of each ensemble and numbers of its discs in this batch, from `run.samples.batch_ensembles`
     seed : root seed of the seeds of all discs
     """
     settings = [stored_settings(ensemble, seed=seed) for ensemble in ensembles]

@@ -6,13 +6,13 @@ from viscorough_study.run.job_log import run_job
 from viscorough_study.run.made_with import made_with_text
 
 
-def main(curves, *, case, tolerance, seed):
-    """Generate and indent the discs of a case, and write their curves.
+def main(curves, *, sample, tolerance, seed):
+    """Generate and indent the discs of a sample, and write their curves.
 
-    curves : file to write; case : arguments of `nested_curves`, from `run.cases.nested_arguments`
+    curves : file to write; sample : arguments of `nested_curves`, from `run.samples.nested_arguments`
     tolerance, seed : further arguments of `nested_curves`
     """
-    dataset = nested_curves(**case, tolerance=tolerance, seed=seed)
+    dataset = nested_curves(**sample, tolerance=tolerance, seed=seed)
     write_dataset(dataset.assign_attrs(made_with_text()), curves)
 
 

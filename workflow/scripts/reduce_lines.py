@@ -11,7 +11,7 @@ def main(curves, *, ensembles, **options):
     """Generate a batch of lines, and write their loading curves; lengths have no unit.
 
     curves : file to write
-    ensembles : settings of each ensemble and numbers of its lines in this batch, from `run.cases.batch_ensembles`
+    ensembles : settings of each ensemble and numbers of its lines in this batch, from `run.samples.batch_ensembles`
     options : seed and until_x, further arguments of `line_curves`
     """
     made = (

@@ -12,7 +12,7 @@ _LENGTHS = ("rms", "diameter", "rms_over", "length_unit")  # settings that scale
 def ensemble_discs(name, spawn_key, surface, elements, numbers, *, seed):
     """Yield (Realization, Indenter) of the discs of an ensemble, with lengths in the unit of each disc.
 
-    name, spawn_key, surface, elements, numbers : description of the ensemble (run.cases.batch_ensembles)
+    name, spawn_key, surface, elements, numbers : description of the ensemble (run.samples.batch_ensembles)
     seed : root seed of the seeds of all discs
     """
     for number in range(*numbers):

@@ -12,7 +12,7 @@ def line_curves(name, spawn_key, surface, points, numbers, *, seed, until_x):
 
     Lengths have no unit.
 
-    name, spawn_key, surface, points, numbers : description of the ensemble (run.cases.batch_ensembles)
+    name, spawn_key, surface, points, numbers : description of the ensemble (run.samples.batch_ensembles)
     seed : root seed of the seeds of all lines
     """
     lines = SelfAffineLines(points=points, **surface)  # for all realizations

@@ -46,7 +46,7 @@ class Realization(NamedTuple):
 def stored_settings(ensemble, **further):
     """Return the settings of an ensemble as files state them, independent of the division into batches.
 
-    ensemble : description of the ensemble (run.cases.batch_ensembles), whose entry `numbers` is left out
+    ensemble : description of the ensemble (run.samples.batch_ensembles), whose entry `numbers` is left out
     further : further settings
     """
     return further | {name: value for name, value in ensemble.items() if name != "numbers"}

@@ -4,7 +4,7 @@ import numpy as np
 
 from viscorough.reference import exponent_beta
 from viscorough_study.figures import style
-from viscorough_study.run.cases import medium_label
+from viscorough_study.run.samples import medium_label
 
 # The axis of velocities begins at this share of the largest velocity. Otherwise it would show many useless decades,
 # because velocities in a solid decay exponentially.

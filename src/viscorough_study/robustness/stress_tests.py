@@ -51,12 +51,12 @@ def stress_tests(seed, across, grids, hurst_min):
     """
     disc = partial(self_affine_disc, elements_across=across, seed=seed)
     usual = {"indenter": disc(0.7), "hurst": 0.7}
-    yield from _disc_cases(disc, usual, grids, hurst_min)
-    yield from _shape_cases(across)
-    yield from _load_cases(usual)
+    yield from _disc_tests(disc, usual, grids, hurst_min)
+    yield from _shape_tests(across)
+    yield from _load_tests(usual)
 
 
-def _disc_cases(disc, usual, grids, hurst_min):
+def _disc_tests(disc, usual, grids, hurst_min):
     """Yield tests of rough discs that differ in time steps, Hurst exponent, grid, contact fractions, or units.
 
     disc : function that generates a disc from a Hurst exponent
@@ -79,7 +79,7 @@ def _disc_cases(disc, usual, grids, hurst_min):
     yield StressTest("tolerance", "1e-14", **usual, tolerance=1e-14)
 
 
-def _shape_cases(across):
+def _shape_tests(across):
     """Yield tests of bodies of revolution, and of indenters that are not self-affine.
 
     x and y extend from −1 to 1. Heights are 0.1 times the functions of x and y.
@@ -99,7 +99,7 @@ def _shape_cases(across):
     yield shaped("exactly flat", np.zeros((across, across)))
 
 
-def _load_cases(usual):
+def _load_tests(usual):
     """Yield tests of one disc under forces that vary, in a Newtonian medium and in viscoelastic media.
 
     Times are from 0 to 1; a repeated time marks a step of the force.

@@ -1,1 +1,1 @@
-"""One run: its settings, cases, seeds, tables, digests, logs and locks."""
+"""One run: its settings, samples, seeds, tables, digests, logs and locks."""

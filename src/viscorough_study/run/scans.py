@@ -1,6 +1,6 @@
 """Describe the measured surfaces (scans) that the settings name, as input of the jobs that compute loading curves.
 
-The description of a scan is called a case.
+The description of a scan is called a sample.
 """
 
 import hashlib
@@ -17,7 +17,7 @@ def scans(entries, curves):
     entries : setting `measured`; its patterns of files are relative to the working directory
     curves : section `curves` of the settings
 
-    Like all descriptions of surfaces for jobs (run.cases), the description of a scan has the keys pool, realizations,
+    Like all descriptions of surfaces for jobs (run.samples), the description of a scan has the keys pool, realizations,
     batch, indentation and group. It also has file, bytes (size of the file) and digest (of the content of the file).
     The keys spacing, unit, preparation, forces, young_modulus and poisson_ratio are from the entry of the setting. The
     name of a scan consists of the names of its group and its file.

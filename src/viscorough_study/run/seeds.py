@@ -8,7 +8,7 @@ result: do not change them, and give a new stream a new number. The numbers 7, 9
 parts that are gone.
 
 Two parts have no stream. The bootstrap of the fits uses the root without a spawn key. The spawn key of a random
-indenter in the stability campaign is only the number of its test case (`random_indenter_key`), and the campaign has a
+indenter in the stability campaign is only its number (`random_indenter_key`), and the campaign has a
 separate root.
 """
 
@@ -134,9 +134,9 @@ def nested_disc_key(hurst, elements):
     return _key(19, _millionths(hurst), elements)
 
 
-def random_indenter_key(case):
-    """Return the spawn key of a small random indenter in the stability campaign; case : number of the test case"""
-    return _key(case)
+def random_indenter_key(number):
+    """Return the spawn key of a small random indenter in the stability campaign; number : number of the indenter"""
+    return _key(number)
 
 
 def _millionths(hurst):

@@ -57,6 +57,12 @@ def several(item, least, most, key=None):
     return Annotated[list[item], Field(min_length=least, max_length=most), AfterValidator(check)]
 
 
+def _without_braces(value):
+    if set(value) & set("{}\n"):
+        raise ValueError(f"{value!r} has a brace or a line break, which Snakemake cannot read; rename the file")
+    return value
+
+
 def _four_decimals(value):
     if value != round(value, 4):
         raise ValueError("at most four decimals are allowed, as in the names of files")
@@ -360,7 +366,7 @@ class ScanGroup(Item):
     """A group of scans that are read and prepared alike."""
 
     name: NAME
-    files: several(Annotated[str, Field(pattern=r"^[^\n{}]+$")], 1, 1000)
+    files: several(Annotated[str, AfterValidator(_without_braces)], 1, 1000)
     spacing: Annotated[list[real(above=0, high=1e12)], Field(max_length=2)] = []
     unit: Annotated[str, AfterValidator(length_unit)] = None
     preparation: Preparation = {}

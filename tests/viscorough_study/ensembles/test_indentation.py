@@ -13,7 +13,7 @@ from viscorough_study.ensembles.discs import ensemble_disc
 from viscorough_study.ensembles.flat_punch import punch_stiffness
 from viscorough_study.ensembles.realization import Realization
 from viscorough_study.ensembles.surface_files import write_surfaces
-from viscorough_study.run import cases
+from viscorough_study.run import samples
 
 INDENTATION = {"tolerance": 1e-3, "until_x": 3.0, "short_until_x": 0.1, "whole": 1}
 
@@ -31,8 +31,10 @@ def curves_of(kind, folder, batch):
 @pytest.mark.parametrize("kind", ["discs", "lines"])
 def test_realization_is_the_same_in_every_batch(tmp_path, kind):
     settings = read_settings("config")
-    table, size = (cases.disc_cases, {"elements": 17}) if kind == "discs" else (cases.line_cases, {"points": 512})
-    ensembles = [ensemble | size for ensemble in cases.batch_ensembles(table(settings)["h04000"], "0000-0002")[-2:]]
+    table, size = (
+        (samples.disc_samples, {"elements": 17}) if kind == "discs" else (samples.line_samples, {"points": 512})
+    )
+    ensembles = [ensemble | size for ensemble in samples.batch_ensembles(table(settings)["h04000"], "0000-0002")[-2:]]
     curves = {}
     for first in (0, 2):
         batch = [ensemble | {"numbers": [first, 3]} for ensemble in ensembles]
@@ -48,7 +50,7 @@ def test_realization_is_the_same_in_every_batch(tmp_path, kind):
 def test_dimensionless_discs_have_no_unit_and_give_no_warning(tmp_path):
     """Heights of the size of the diameter would be an error in metres, but are normal in dimensionless units."""
     settings = read_settings("config")
-    (ensemble,) = cases.batch_ensembles(cases.disc_cases(settings)["h04000_roll_off"], "0000-0001")
+    (ensemble,) = samples.batch_ensembles(samples.disc_samples(settings)["h04000_roll_off"], "0000-0001")
     with warnings.catch_warnings(action="error"):
         curves_of("discs", tmp_path, [ensemble | {"elements": 17}])
     variables = read_dataset(tmp_path / "curves.nc").variables
@@ -59,7 +61,7 @@ def test_dimensionless_discs_have_no_unit_and_give_no_warning(tmp_path):
 
 def test_first_curves_of_every_ensemble_extend_further(tmp_path):
     settings = read_settings("config")
-    ensembles = cases.batch_ensembles(cases.disc_cases(settings)["h09000"], "0000-0002")[:2]
+    ensembles = samples.batch_ensembles(samples.disc_samples(settings)["h09000"], "0000-0002")[:2]
     batch = [ensemble | {"elements": 17} for ensemble in ensembles]
     values = curves_of("discs", tmp_path, batch)
     assert values["until_x"].tolist() == [3.0, 0.1, 0.1] * 2
@@ -71,7 +73,7 @@ def test_first_curves_of_every_ensemble_extend_further(tmp_path):
 
 @pytest.mark.parametrize("until_x", [0.003, 0.3])
 def test_curves_of_lines_end_at_the_first_level_beyond_their_x(tmp_path, until_x):
-    ensembles = cases.batch_ensembles(cases.line_cases(read_settings("config"))["h04000"], "0000-0002")[:1]
+    ensembles = samples.batch_ensembles(samples.line_samples(read_settings("config"))["h04000"], "0000-0002")[:1]
     (batch,) = ensembles = [ensemble | {"points": 4096} for ensemble in ensembles]
     load_script("reduce_lines").main(tmp_path / "curves.nc", ensembles=ensembles, seed=7, until_x=until_x)
     length = batch["surface"]["length"]

@@ -58,7 +58,7 @@ WRONG = [
     (fine({"surfaces": 19}), "fine_grids.ensembles[0]: grids: 19 surfaces on the finest grid; at least 20 are needed"),
     (fine({"until_x": 0.5}), "fine_grids.ensembles[0]: grids: until_x is 0.5 on the grid of 257, 0.1 on the next"),
     ({"measured": [SCAN | {"unit": "banana"}]}, "measured[0].unit: "),
-    ({"measured": [SCAN | {"files": ["{A}.npy"]}]}, "measured[0].files[0]: String should match pattern"),
+    ({"measured": [SCAN | {"files": ["{A}.npy"]}]}, "measured[0].files[0]: '{A}.npy' has a brace or"),
     ({"measured": [SCAN | {"spacing": [22.5, 1.8]}]}, "measured[0]: spacing: the distances must differ by at most"),
     ({"measured": [SCAN | {"preparation": {"crop": [[0, 9], [5, 5]]}}]}, "preparation: crop: 5 to 5 is empty;"),
 ]

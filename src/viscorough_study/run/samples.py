@@ -1,20 +1,20 @@
-"""List the cases that the settings define, divide them into batches, and estimate the memory of their jobs.
+"""List the samples that the settings define, divide them into batches, and estimate the memory of their jobs.
 
-A case is a dictionary for the jobs that compute loading curves. It describes one or several ensembles of surfaces.
-Cases of the same kind form a group. A pool contains the curves of all cases that are evaluated together, at common
+A sample is a dictionary for the jobs that compute loading curves. It describes one or several ensembles of surfaces.
+Samples of the same kind form a group. A pool contains the curves of all samples that are evaluated together, at common
 abscissae. The indenters in the comparison of methods are listed here as well.
 
-A job computes one batch, that is, some realizations of a case. There are two ways to form the batches of a case with
-several ensembles:
+A job computes one batch, that is, some realizations of a sample. There are two ways to form the batches of a sample
+with several ensembles:
 
-- Side by side: a batch has the same realizations of all ensembles of the case. Combinations of force, viscosity,
-  diameter and rms height at one Hurst exponent are batched in this way. Combinations 1 to 9 are one case and 10 to 19
-  the next case, so a tenth combination does not change the curves of the first nine. Lines of neighbouring Hurst
+- Side by side: a batch has the same realizations of all ensembles of the sample. Combinations of force, viscosity,
+  diameter and rms height at one Hurst exponent are batched in this way. Combinations 1 to 9 are one sample and 10 to 19
+  the next sample, so a tenth combination does not change the curves of the first nine. Lines of neighbouring Hurst
   exponents are batched in this way, too, since most jobs would take less time than their start.
 - In sequence: a batch has realizations of one ensemble and then of the next. Discs on coarse grids are batched in this
   way, so that a job can hold many small discs.
 
-Names of cases are parts of file names, which contain no floating-point numbers. Names of ensembles are in the tables.
+Names of samples are parts of file names, which contain no floating-point numbers. Names of ensembles are in the tables.
 """
 
 import itertools
@@ -49,23 +49,23 @@ def hurst_id(hurst):
     return f"h{round(hurst * 1e4):05d}"
 
 
-def disc_cases(settings):
-    """Return {name: description} of all cases of discs.
+def disc_samples(settings):
+    """Return {name: description} of all samples of discs.
 
-    A case describes ensembles of discs for the jobs that compute their loading curves. Its description has the keys
+    A sample describes ensembles of discs for the jobs that compute their loading curves. Its description has the keys
     pool, group, realizations, batch, indentation and ensembles. Each ensemble has the keys name, spawn_key, elements,
     surface (arguments of self_affine_disc) and realizations. In the group "base" an ensemble also has the key
     combination.
 
-    The seed of a disc is the spawn key followed by the number of the realization (run.seeds). `realizations` of a case
-    is the sum over its ensembles, or, if `side_by_side` is true, the number for each ensemble.
+    The seed of a disc is the spawn key followed by the number of the realization (run.seeds). `realizations` of a
+    sample is the sum over its ensembles, or, if `side_by_side` is true, the number for each ensemble.
     """
     return _combined_discs(settings) | _single_discs(settings)
 
 
 def _combined_discs(settings):
-    """Return the cases of the group "base": discs of all combinations of force, viscosity, diameter and rms height."""
-    cases, discs, curves = {}, settings["discs"], settings["curves"]
+    """Return the samples of the group "base": all combinations of force, viscosity, diameter and rms height."""
+    samples, discs, curves = {}, settings["discs"], settings["curves"]
     ends = {name: curves[name] for name in ("tolerance", "until_x", "whole", "short_until_x")}
     base = {"pool": "discs", "group": "base", "indentation": ends, "side_by_side": True}
     base |= {"realizations": discs["realizations"], "batch": discs["batch"]}
@@ -75,18 +75,18 @@ def _combined_discs(settings):
             surface = settings["surface"] | {"hurst": hurst, "length_unit": "m"} | lengths
             ensemble = _ensemble(f"{hurst_id(hurst)}_c{number}", seeds.disc_key(hurst, number), surface, discs)
             name = hurst_id(hurst) + (f"_{number // 10}0" if number >= 10 else "")
-            case = cases.setdefault(name, base | {"ensembles": []})
-            case["ensembles"].append(ensemble | {"combination": combination})
-    return cases
+            sample = samples.setdefault(name, base | {"ensembles": []})
+            sample["ensembles"].append(ensemble | {"combination": combination})
+    return samples
 
 
 def _single_discs(settings):
-    """Return the cases of all other discs, which have a single combination, h = L = 1 m."""
-    cases, discs, curves = {}, settings["discs"], settings["curves"]
+    """Return the samples of all other discs, which have a single combination, h = L = 1 m."""
+    samples, discs, curves = {}, settings["discs"], settings["curves"]
 
     def add(name, pool, group, until_x, ensembles):
         ends = {"tolerance": curves["tolerance"], "until_x": until_x}
-        cases[name] = _joint_case(ensembles, discs["single_batch"], group, pool=pool, indentation=ends)
+        samples[name] = _joint_case(ensembles, discs["single_batch"], group, pool=pool, indentation=ends)
 
     longer, roll_off = discs["longer_period"], discs["roll_off"]
     changed = {
@@ -117,11 +117,11 @@ def _single_discs(settings):
             for hurst, across in itertools.product(exponents, elements)
         ]
         add(group, group, group, until_x, ensembles)
-    return cases
+    return samples
 
 
 def _ensemble(name, spawn_key, surface, grid):
-    """Return the description of an ensemble of surfaces, as it is stored in a case (see `disc_cases`).
+    """Return the description of an ensemble of surfaces, as it is stored in a sample (see `disc_samples`).
 
     grid : settings that contain the number of realizations, and the number of elements across a disc or of points of a
         line
@@ -131,7 +131,7 @@ def _ensemble(name, spawn_key, surface, grid):
 
 
 def _joint_case(ensembles, batch, group, **shared):
-    """Return the description of a case (see `disc_cases`) whose batches run through its ensembles in sequence.
+    """Return the description of a sample (see `disc_samples`) whose batches run through its ensembles in sequence.
 
     batch : number of realizations in a batch; shared : further keys of the description
     """
@@ -139,28 +139,28 @@ def _joint_case(ensembles, batch, group, **shared):
     return shared | {"group": group, "ensembles": ensembles, "realizations": realizations, "batch": batch}
 
 
-def line_cases(settings):
-    """Return {name: description} of all cases of lines.
+def line_samples(settings):
+    """Return {name: description} of all samples of lines.
 
-    A case describes ensembles of lines for the jobs that compute their loading curves. Descriptions are dicts with the
-    same keys as in `disc_cases`, with these exceptions:
+    A sample describes ensembles of lines for the jobs that compute their loading curves. Descriptions are dicts with
+    the same keys as in `disc_samples`, with these exceptions:
 
     - The key `until_x` replaces the key `indentation`.
     - In an ensemble, the key `points` replaces the key `elements`, and there is no key `combination`.
     - In an ensemble, the value of the key `surface` contains arguments of self_affine_line.
 
-    Hurst exponents with the same first decimal, such as 0.40 and 0.45, share a case, whose batches are side by side.
+    Hurst exponents with the same first decimal, such as 0.40 and 0.45, share a sample, whose batches are side by side.
     """
-    lines, cases = settings["lines"], {}
+    lines, samples = settings["lines"], {}
     base = {"pool": "lines", "group": "lines", "until_x": settings["curves"]["until_x"], "side_by_side": True}
     base |= {"realizations": lines["realizations"], "batch": lines["batch"]}
     names = ("amplitudes", "roll_off_wavelength", "roll_off_level")
     surface = {name: settings["surface"][name] for name in names} | UNIT_LINE
     for hurst in _line_exponents(settings):
         line = _ensemble(hurst_id(hurst), seeds.line_key(hurst), surface | {"hurst": hurst}, lines)
-        case = cases.setdefault(hurst_id(math.floor(10 * hurst + 1e-9) / 10), base | {"ensembles": []})
-        case["ensembles"].append(line)
-    return cases
+        sample = samples.setdefault(hurst_id(math.floor(10 * hurst + 1e-9) / 10), base | {"ensembles": []})
+        sample["ensembles"].append(line)
+    return samples
 
 
 def _line_exponents(settings):
@@ -170,19 +170,19 @@ def _line_exponents(settings):
     return sorted({*settings["hurst"], *further})
 
 
-def nested_cases(settings):
+def nested_samples(settings):
     """Return {name: description} of the discs whose curves are computed on several grids.
 
-    A case belongs to one Hurst exponent and one grid. Its description has the keys realizations and batch, as in
-    `disc_cases`, and the keys hurst, spawn_key, elements (across discs, on the grid and on all coarser grids) and
+    A sample belongs to one Hurst exponent and one grid. Its description has the keys realizations and batch, as in
+    `disc_samples`, and the keys hurst, spawn_key, elements (across discs, on the grid and on all coarser grids) and
     until_x, which are arguments of ensembles.nested_grids.nested_curves.
     """
-    cases = {}
+    samples = {}
     for ensemble in settings["fine_grids"]["ensembles"]:
         coarser = []
         for grid in ensemble["grids"]:
             coarser = [grid["elements"], *coarser]
-            cases[f"{hurst_id(ensemble['hurst'])}_{grid['elements']:05d}"] = {
+            samples[f"{hurst_id(ensemble['hurst'])}_{grid['elements']:05d}"] = {
                 "hurst": ensemble["hurst"],
                 "elements": coarser,
                 "spawn_key": seeds.nested_disc_key(ensemble["hurst"], grid["elements"]),
@@ -190,19 +190,19 @@ def nested_cases(settings):
                 "realizations": grid["surfaces"],
                 "batch": grid["batch"],
             }
-    return cases
+    return samples
 
 
-def nested_arguments(case, batch):
+def nested_arguments(sample, batch):
     """Return the arguments of ensembles.nested_grids.nested_curves for one job, which is a batch of discs."""
     first, last = map(int, batch.split("-"))
     names = ("hurst", "elements", "spawn_key", "until_x")
-    return {name: case[name] for name in names} | {"numbers": [first, last + 1]}
+    return {name: sample[name] for name in names} | {"numbers": [first, last + 1]}
 
 
-def nested_files(cases):
-    """Return the names of the files with the curves of discs on several grids; cases : result of `nested_cases`."""
-    return [f"results/curves/nested/{name}/{batch}.nc" for name, case in cases.items() for batch in batches(case)]
+def nested_files(samples):
+    """Return the names of the files with the curves of discs on several grids; samples : result of `nested_samples`."""
+    return [f"results/curves/nested/{name}/{batch}.nc" for name, sample in samples.items() for batch in batches(sample)]
 
 
 def method_problems(settings):
@@ -226,8 +226,8 @@ def combined_ensembles(settings):
 
     A combination consists of force, viscosity, diameter and rms height.
     """
-    bases = (case for case in disc_cases(settings).values() if case["group"] == "base")
-    return {ensemble["name"]: ensemble for case in bases for ensemble in case["ensembles"]}
+    bases = (sample for sample in disc_samples(settings).values() if sample["group"] == "base")
+    return {ensemble["name"]: ensemble for sample in bases for ensemble in sample["ensembles"]}
 
 
 def example_discs(settings):
@@ -243,25 +243,25 @@ def example_discs(settings):
 # ---- batches; a batch contains the realizations that one job computes
 
 
-def batches(case):
-    """Return the names of the batches (jobs) of a case, such as 0008-0015 for realizations 8 to 15."""
-    number, size = case["realizations"], case["batch"]
+def batches(sample):
+    """Return the names of the batches (jobs) of a sample, such as 0008-0015 for realizations 8 to 15."""
+    number, size = sample["realizations"], sample["batch"]
     return [f"{first:04d}-{min(first + size, number) - 1:04d}" for first in range(0, number, size)]
 
 
-def batch_ensembles(case, batch):
-    """Return the parts of the ensembles of a case that one job computes, which is a batch of realizations.
+def batch_ensembles(sample, batch):
+    """Return the parts of the ensembles of a sample that one job computes, which is a batch of realizations.
 
     A part is a dict with the keys name, spawn_key, surface, elements or points, and numbers. `numbers` is the range of
     realizations in this batch, [first, end]; end is not included.
     """
     first, last = map(int, batch.split("-"))
     parts, before = [], 0
-    for ensemble in case["ensembles"]:
+    for ensemble in sample["ensembles"]:
         after = before + ensemble["realizations"]
         if before <= last and first < after:
             parts.append(_in_batch(ensemble, [max(first - before, 0), min(last + 1, after) - before]))
-        before = 0 if case.get("side_by_side") else after
+        before = 0 if sample.get("side_by_side") else after
     return parts
 
 
@@ -271,40 +271,40 @@ def _in_batch(ensemble, numbers):
 
 
 def pool_batches(tables, pool):
-    """Return [(name of the case, name of the batch)] for all batches from which a pool of curves is made.
+    """Return [(name of the sample, name of the batch)] for all batches from which a pool of curves is made.
 
     They are in the order of the table of descriptions.
 
-    tables : {kind of surface: {name of a case: description}}
+    tables : {kind of surface: {name of a sample: description}}
     """
-    cases = tables[POOL_KINDS[pool]]
-    return [(name, batch) for name, case in cases.items() if case["pool"] == pool for batch in batches(case)]
+    samples = tables[POOL_KINDS[pool]]
+    return [(name, batch) for name, sample in samples.items() if sample["pool"] == pool for batch in batches(sample)]
 
 
 def pool_curves(tables, pool):
     """Return the names of the files with the loading curves of a pool.
 
-    tables : {kind of surface: {name of a case: description}}
+    tables : {kind of surface: {name of a sample: description}}
     """
-    return [f"results/curves/{POOL_KINDS[pool]}/{case}/{batch}.nc" for case, batch in pool_batches(tables, pool)]
+    return [f"results/curves/{POOL_KINDS[pool]}/{sample}/{batch}.nc" for sample, batch in pool_batches(tables, pool)]
 
 
 def pool_groups(tables, pool):
     """Return a list with the group, such as "base", of the surfaces in each batch of a pool of curves.
 
-    tables : {kind of surface: {name of a case: description}}
+    tables : {kind of surface: {name of a sample: description}}
     """
-    return [tables[POOL_KINDS[pool]][case]["group"] for case, _ in pool_batches(tables, pool)]
+    return [tables[POOL_KINDS[pool]][sample]["group"] for sample, _ in pool_batches(tables, pool)]
 
 
 def combination_curves(discs):
     """Return the names of the files with the loading curves of the base discs, which all figures use.
 
     These are the curves of all combinations of force, viscosity, diameter and rms height.
-    discs : {name of a case: description}
+    discs : {name of a sample: description}
     """
-    bases = {name: case for name, case in discs.items() if case["group"] == "base"}
-    return [f"results/curves/discs/{name}/{batch}.nc" for name, case in bases.items() for batch in batches(case)]
+    bases = {name: sample for name, sample in discs.items() if sample["group"] == "base"}
+    return [f"results/curves/discs/{name}/{batch}.nc" for name, sample in bases.items() for batch in batches(sample)]
 
 
 # ---- memory of jobs [MB]
@@ -328,43 +328,43 @@ def grid_memory(elements, surfaces=0):
     return round(BASE_MEMORY + (424 + 8 * surfaces) * elements**2 / 1e6)
 
 
-def disc_memory(case):
+def disc_memory(sample):
     """Return the memory [MB] of a job that indents discs."""
-    return grid_memory(max(ensemble["elements"] for ensemble in case["ensembles"]))
+    return grid_memory(max(ensemble["elements"] for ensemble in sample["ensembles"]))
 
 
-def nested_memory(case):
+def nested_memory(sample):
     """Return the memory [MB] of a job that indents discs on several grids: surfaces and fields of the finest grid.
 
     The curves end at small contacts, so the solver needs less than for whole curves.
     """
-    return round(BASE_MEMORY + 150 * case["elements"][0] ** 2 / 1e6)
+    return round(BASE_MEMORY + 150 * sample["elements"][0] ** 2 / 1e6)
 
 
-def measured_memory(case):
+def measured_memory(sample):
     """Return the memory [MB] of a job that indents a measured surface, including the fields of the solver.
 
     The memory follows from the size of the file with the heights, which has at least four bytes per height.
     """
-    return round(BASE_MEMORY + 400 / 4 * case["bytes"] / 1e6)
+    return round(BASE_MEMORY + 400 / 4 * sample["bytes"] / 1e6)
 
 
-def line_memory(case):
+def line_memory(sample):
     """Return the memory [MB] of a job that applies dimensionality reduction to lines.
 
     The memory is for the spectrum, heights and gaps of a line.
     """
-    return round(BASE_MEMORY + 40 * max(ensemble["points"] for ensemble in case["ensembles"]) / 1e6)
+    return round(BASE_MEMORY + 40 * max(ensemble["points"] for ensemble in sample["ensembles"]) / 1e6)
 
 
 def pool_memory(tables, pool, curves):
     """Return the memory [MB] of a job that pools curves: for two copies of all realizations on common abscissae.
 
-    tables : {kind of surface: {name of a case: description}}
+    tables : {kind of surface: {name of a sample: description}}
     curves : section `curves` of the settings
     """
-    cases = [case for case in tables[POOL_KINDS[pool]].values() if case["pool"] == pool]
-    members = [member for case in cases for member in case.get("ensembles", [case])]
+    samples = [sample for sample in tables[POOL_KINDS[pool]].values() if sample["pool"] == pool]
+    members = [member for sample in samples for member in sample.get("ensembles", [sample])]
     realizations = sum(member["realizations"] for member in members)
     abscissae = 1 + curves["per_decade"] * math.log10(curves["until_x"] / curves["x_low"])
     variables = 2 * len(POOLS[pool])

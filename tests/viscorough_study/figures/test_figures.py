@@ -10,17 +10,20 @@ from viscorough import reference
 from viscorough_study.comparisons import direct_integration, mdr_comparison, media_kinetics, validation
 from viscorough_study.figures.direct import plot_direct
 from viscorough_study.figures.exponent import SHIFT, plot_exponent
+from viscorough_study.figures.local_exponent import plot_local_exponent
 from viscorough_study.figures.master_curve import plot_master_curve
 from viscorough_study.figures.media import plot_media
 from viscorough_study.figures.reduction import plot_reduction
 from viscorough_study.figures.surfaces import plot_surfaces
 from viscorough_study.figures.validation import plot_validation
+from viscorough_study.fits import fine_grids
 from viscorough_study.fits.conventions import READINGS, fits
 
 pytestmark = pytest.mark.filterwarnings("error")
 
 OF_TABLES = {
     plot_direct: direct_integration.COLUMNS,
+    plot_local_exponent: fine_grids.EXPONENTS,
     plot_media: media_kinetics.COLUMNS,
     plot_reduction: mdr_comparison.COLUMNS,
     plot_validation: validation.COLUMNS,

@@ -11,6 +11,7 @@ import click
 
 import viscorough
 from viscorough.basics import units
+from viscorough.basics.summaries import unit_power
 from viscorough.basics.units import Quantity
 from viscorough.cli import messages
 
@@ -148,8 +149,9 @@ def with_lengths_in(variables: Variables, length_unit: str) -> dict[str, Any]:
     for name, (dimensions, values, about) in variables.items():
         unit = about.get("units")
         if unit in _POWERS_OF_LENGTH:
-            values = in_unit(values, length_unit, _POWERS_OF_LENGTH[unit])
-            about = about | {"units": unit.replace("m", length_unit, 1)}
+            power = _POWERS_OF_LENGTH[unit]
+            values = in_unit(values, length_unit, power)
+            about = about | {"units": unit_power(length_unit, power) + (" s-1" if unit == "m s-1" else "")}
         converted[name] = dimensions, values, about
     return converted
 

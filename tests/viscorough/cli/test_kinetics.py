@@ -105,6 +105,14 @@ def test_units_are_converted_if_the_curve_has_a_unit_of_length(here, curve, opti
     assert read_dataset("kin.nc").variables["velocity"].attrs["units"] == "um s-1"
 
 
+def test_curve_in_a_unit_that_is_a_number_of_metres_is_read_again(here):
+    np.save("heights.npy", sphere_heights(17))
+    assert run("indent heights.npy --spacing 1 --unit angstrom --depths 0.2,0.97 -o a.nc") == 0
+    np.testing.assert_array_equal(values("a.nc")["depth"], [0.2, 0.97])
+    assert run("kinetics a.nc --force '1e-4 nN' --viscosity 1e-3 --times 1e-9 -o kin.nc") == 0
+    assert {read_dataset("kin.nc")[name].attrs["units"] for name in ("depth", "velocity")} == {"1e-10 m", "1e-10 m s-1"}
+
+
 def test_missing_values_give_a_warning(here, capsys, complaint):
     """A ramp passes through depths before the first level, where the curve is not determined."""
     late = indent(Indenter(sphere_heights(17), 1.0), depths=[0.15, 0.6])

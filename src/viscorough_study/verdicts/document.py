@@ -1,15 +1,15 @@
 """Write the verdicts on all claims as a page of the documentation, in Markdown (docs/verdicts.md)."""
 
-import numpy as np
-
 from viscorough_study.verdicts.claim import KINDS
 from viscorough_study.verdicts.claims import AFTER_THE_FACT, CLAIMS, counted_verdicts, verdicts_of
 
 HEAD = f"""\
 # Verdicts on the paper's claims
 
-These are the verdicts of the default run, `make reproduce`. [claims.csv](claims.csv) is the full table. Symbols are
-defined in [Theory](theory.md#symbols); numbers in brackets are 95 % intervals.
+These are the verdicts of a run; the documentation has those of the default run, `make reproduce`. The page of the run,
+`results/index.html`, has each claim with its numbers, criterion and remarks beside the picture that shows it.
+[claims.csv](claims.csv) is the full table, with values, 95 % intervals, tolerances and their reasons. Symbols are
+defined in [Theory](theory.md#symbols).
 
 A claim has one or several *cases*, such as one for each Hurst exponent. A case *holds* if the whole 95 % interval of
 its number lies within the tolerance, it does *not* hold if the whole interval lies outside, and it is *undecided*
@@ -22,8 +22,8 @@ of twice its diameter, and *h* is the rms height of the square. If both readings
 verdict. If the claim holds in one of them, it *holds in A* or *holds in B*. Otherwise the better verdict counts, with
 the reading named. Reading A was chosen first. A verdict that rests on B was {AFTER_THE_FACT}.
 Claims with empty columns do not depend on the reading, or are judged in A only; these are all claims on lines of the
-method of dimensionality reduction (MDR), which are compared with reading A. Reading B has 240 discs for each H and
-reading A 720, so that some cases of B are undecided for their wider intervals.
+method of dimensionality reduction (MDR), which are compared with reading A. Reading B has fewer discs,
+so that some of its cases are undecided for their wider intervals.
 
 What the paper says on computing time is on the page beside our times, and no claim here: times belong to a machine.
 
@@ -52,8 +52,6 @@ def document(table, fine_grids):
             lines = [f"## {heading}\n", "| claim | A | B | verdict |", "|---|---|---|---|"]
             lines += [_line(claim, verdicts[claim.name]) for claim in claims]
             parts.append("\n".join(lines) + "\n")
-    parts.append("## Numbers, criteria and tolerances\n")
-    parts += [_section(claim, verdicts[claim.name], table[table["claim"] == claim.name]) for claim in present]
     return "\n".join(parts)
 
 
@@ -71,23 +69,4 @@ def counts_text(counts):
 
 def _line(claim, verdict):
     in_a, in_b = ("", "") if "" in verdict.columns else (verdict.columns.get(reading, "–") for reading in ("A", "B"))
-    return f"| {claim.title} ([{claim.name}](#{claim.name}), {claim.where}) | {in_a} | {in_b} | {verdict.text} |"
-
-
-def _section(claim, verdict, rows):
-    """Return what is said about a claim, and the numbers of its cases."""
-    tolerance = f" Tolerance {claim.tolerance:g}: {claim.stated_reason}." if claim.tolerance else ""
-    lines = [f"### {claim.name}\n", f"{claim.where}: {claim.sentence}. **{verdict.text}**\n"]
-    lines += [f"Holds if {claim.criterion}.{tolerance} {claim.remark}".rstrip() + "\n"]
-    for reading, cases in rows.groupby("reading", sort=False):
-        numbers = "; ".join(f"{row['case']}: {value_text(row)}" for row in cases.to_dict("records"))
-        lines.append(f"{claim.quantity}{f' in {reading}' * bool(reading)}: {numbers}.\n")
-    return "\n".join(lines)
-
-
-def value_text(row):
-    """Return the value in a row of the table of verdicts as text, with its interval."""
-    if not np.isfinite(row["value"]):
-        return "no value"
-    ends = f" [{row['low']:.3g}, {row['high']:.3g}]" if np.isfinite(row["low"]) else ""
-    return f"{row['value']:.3g}{ends}"
+    return f"| {claim.title} (`{claim.name}`, {claim.where}) | {in_a} | {in_b} | {verdict.text} |"

@@ -187,10 +187,9 @@ def test_counts_are_of_one_kind_of_claims(table):
         assert [word for word, _ in counted] == sorted((word for word, _ in counted), key=WORDS.index)
 
 
-def test_document_has_every_claim_with_its_numbers(table):
+def test_document_has_every_claim(table):
     text = document(table, "A sentence on fine grids.")
-    for name, claim in NAMED.items():
-        assert text.count(f"\n### {name}\n") == 1
+    for claim in NAMED.values():
         assert text.count(f"| {claim.title} (") == 1
 
 

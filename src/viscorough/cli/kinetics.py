@@ -68,8 +68,9 @@ def kinetics(
     0.5.
 
     If the unit of length of the curve is known, forces are in N, moduli in Pa and viscosities in Pa s. They may also
-    have another unit, as in --viscosity "2 kPa s" or in the heading t [ms],F [mN] of a force history. If the unit of
-    length is not known, all are plain numbers in consistent units; for heights in metres these are N, Pa and Pa s.
+    have another unit, as in --viscosity "2 kPa s" or in the headings time (ms),force (mN) of a force history. If the
+    unit of length is not known, all are plain numbers in consistent units; for heights in metres these are N, Pa and
+    Pa s.
 
     \b
     Examples:
@@ -80,8 +81,8 @@ def kinetics(
             --medium rubber.yaml --times 0:2:201 -o loop.nc
     """
     given = sum(each is not None for each in (force, force_history, depth_history))
-    options.require(given == 1, "one of --force, --force-history and --depth-history is needed")
-    options.require((viscosity is None) != (medium is None), "one of --viscosity and --medium is needed")
+    options.require(given == 1, "exactly one of --force, --force-history and --depth-history is needed")
+    options.require((viscosity is None) != (medium is None), "exactly one of --viscosity and --medium is needed")
 
     import numpy as np
 

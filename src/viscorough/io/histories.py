@@ -162,7 +162,11 @@ def _places(headings: Sequence[str], wanted: Mapping[str, str], length_unit: str
             raise Refused(f"{text}; {way}")
         (place, match), stated = found[0], (found[0][1][2] or "").strip()
         if bool(stated) != (length_unit != units.UNKNOWN):
-            known = "not known, so that no heading may have one" if stated else f"{length_unit}, so that each has one"
+            known = (
+                "not known, so that no heading may have one"
+                if stated
+                else f"{length_unit}, so that each needs one, as in {_named(wanted)}"
+            )
             raise Refused(f"heading {headings[place].strip()!r}: the unit of length of the indenter is {known}")
         places.append(place)
         factors.append(units.factor(stated, unit) if stated else 1.0)

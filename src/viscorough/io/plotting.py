@@ -73,7 +73,7 @@ def plot(result: Content | Result, path: FilePath | None = None) -> Figure:
     suffix = "" if path is None else check_suffix(path, FIGURES)
     variables, _ = result if isinstance(result, tuple) else to_content(result)
     with mpl.rc_context(_STYLE):
-        figure = _Shown(figsize=(4.6, 3.6), layout="constrained")
+        figure = _Shown(figsize=(4.6, 3.6), layout="compressed")
         axes = figure.subplots()
         maps = [name for name in _MAPS if name in variables and variables[name][0][-2:] == ("y", "x")]
         curves = [each for each in _CURVES if set(each[:2]) <= set(variables)]

@@ -278,9 +278,9 @@ def _check_creep(curve: LoadingCurve, row: RowOfSprings, times: Array, creep: Ar
     if beyond.any() and np.isfinite(row.limit):
         where, enough = int(np.argmax(beyond)), 1.01 * creep[np.isfinite(creep)].max()
         raise ValueError(
-            f"load: at time {times[where]:g} the creep ∫J dF is {creep[where]:.6g}, beyond the "
-            f"curve's last level; allowed: up to {curve.force[-1]:.6g}; indent further, with "
-            f"argument until_fraction=1 or, in units of F/G, argument until_force={enough:.3g}"
+            f"load: at time {times[where]:g} the load has the depth of F/G = {creep[where]:.6g} in an "
+            f"elastic half-space, beyond the curve's last level; allowed: up to {curve.force[-1]:.6g}; indent further, "
+            f"with argument until_fraction=1 or, in units of F/G, argument until_force={enough:.3g}"
         )
 
 

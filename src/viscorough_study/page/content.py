@@ -70,7 +70,7 @@ def in_short(shown, texts):
             "in part",
         ),
         "Undecided": ("undecided",),
-        "Fails": ("not",),
+        "Does not hold": ("not",),
     }
     named = [(claim, texts[claim["claim"].name]) for claim in shown if claim["claim"].name in texts]
     groups = {heading: [c for c in named if c[0]["verdict"].word in words] for heading, words in headings.items()}

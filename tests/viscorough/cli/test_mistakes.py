@@ -78,7 +78,7 @@ MISTAKES = [
     (f"{CONTACT} --force 1 --shear-modulus 1 --poisson 0.3", "--poisson is for use with --young"),
     (f"{CONTACT} --force 1 --young 1 --poisson 0.6", "0.6 is not in the range -1<x<=0.5"),
     (f"{CONTACT} --force 1 --threads 0", "'--threads': 0 is not in the range 1<=x<=1024"),
-    (f"{KINETICS} --viscosity 1", "one of --force, --force-history and --depth-history is needed"),
+    (f"{KINETICS} --viscosity 1", "exactly one of --force, --force-history and --depth-history is needed"),
     (f"{KINETICS} --depth-history force.csv --viscosity 1 -o force.csv", "would replace the depth history"),
     (f"{KINETICS} --force 1", "one of --viscosity and --medium is needed"),
     ("kinetics curve.nc --force 1 --viscosity 1 -o pipe.nc", "pipe"),

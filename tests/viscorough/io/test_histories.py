@@ -49,7 +49,7 @@ def test_without_a_unit_of_length_headings_have_no_units(history):
     assert history("force,time\n1,0\n3,2\n", "1") == [[0, 2], [1, 3]]
     with refused("heading 'time \\(s\\)': the unit of length of the indenter is not known, so that no heading may"):
         history("time (s),force (N)\n0,1\n2,3\n", "1")
-    with refused("heading 'time': the unit of length of the indenter is um, so that each has one"):
+    with refused("heading 'time': the unit of length of the indenter is um, so that each needs one"):
         history("time,force\n0,1\n2,3\n", "um")
 
 
@@ -68,7 +68,7 @@ def test_without_a_unit_of_length_headings_have_no_units(history):
         ("time (s),force (V)", "unit 'V': cannot be converted to N"),
         ("time (s),force (foo)", "unit 'foo': a unit such as"),
         ("time (s);force (N),note", "';' and ',' in one row; one delimiter"),
-        ("time (s) force (N)", "heading .time.: the unit of length of the indenter is um, so that each has one"),
+        ("time (s) force (N)", "heading .time.: the unit of length of the indenter is um, so that each needs one"),
     ],
 )
 def test_other_headings_are_refused(history, heading, what):

@@ -154,14 +154,17 @@ def test_default_times_are_a_hundred_over_the_whole_curve(name):
     [
         ({"medium": 0.0}, "medium: 0.0; allowed: a medium as viscorough.Maxwell, or the viscosity of a Newtonian one"),
         ({"force": 0.0}, "constant force: 0.0; allowed: a finite number above 0"),
-        ({"force": 1e9}, "at time 0 the creep ∫J dF is 2.5e+08, beyond the curve's last level"),
+        (
+            {"force": 1e9},
+            "at time 0 the load has the depth of F/G = 2.5e+08 in an elastic half-space, beyond the curve's last level",
+        ),
         (
             {"force": 1e-9, "times": None},
             "the creep is from F/G 2.5e-10, at once, to 6.66667e-10, in the end",
         ),
         ({"force": [1.0, 2.0], "times": None}, "needs the time of each sample"),
         ({"force": [1.0, -1e-9, 2.0]}, "sample 1 is -1e-09; allowed: finite, 0 or more"),
-        ({"force": [0.01, 0.02, 1e9]}, "at time 2 the creep"),
+        ({"force": [0.01, 0.02, 1e9]}, "at time 2 the load has the depth"),
         ({"force": [1, 1, 1], "times": [1.0, 1.0, 1.0]}, "or given twice where the force steps"),
         ({"force": Load([0.0, 1.0], force=[0.01, 0.02])}, "within the history of the force, 0 to 1"),
         ({"times": [0.0, 2.0, 1.0]}, "each larger than the one before"),

@@ -291,7 +291,7 @@ def test_motions_that_overflow_are_refused():
     curve = indent(self_affine_disc(0.7, 9, rms=0.1, seed=1), until_fraction=1.0)
     for load in (1e300, Load([0, 1, 2.0], force=[0, 1e300, 0])):
         for medium in (1e-300, MEDIA["springpot"].__class__(1e-300, 0.5)):
-            with refused("depths or forces overflow in this medium"):
+            with refused("load: depths or forces overflow in this medium"):
                 kinetics(curve, load, medium, [1.0, 2.0])
 
 

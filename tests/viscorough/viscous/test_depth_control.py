@@ -43,7 +43,7 @@ def test_invalid_histories_are_refused():
             "steps into the surface at time 1, which takes an infinite force",
         ),
         ({"depth": [0.1, 0.2]}, r"one per time, shape \(3,\)"),
-        ({"depth": [0.1, 0.2, 2.0]}, "depth 2 is beyond the curve's last level; allowed: up to 1"),
+        ({"depth": [0.1, 0.2, 2.0]}, "load: the depth 2 is beyond the curve's last level; allowed: up to 1"),
         ({"times": [0.0, 1.0, 0.5]}, "each larger than the one before, or given twice"),
     ):
         call = {"depth": [0.1, 0.2, 0.3], "medium": MEDIA["solid"], "times": [0.0, 1.0, 1.0]} | arguments

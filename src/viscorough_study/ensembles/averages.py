@@ -13,7 +13,8 @@ import numpy as np
 import xarray as xr
 
 DIMENSIONS = ("rms_convention", "realization", "abscissa")
-ROUNDING = 1e-9  # abscissae and ends of ranges count as equal if their relative difference is smaller
+# Abscissae, ends of ranges and numbers of decades count as equal up to this relative difference.
+ROUNDING = 1e-9
 
 
 def abscissa(low, high, per_decade):

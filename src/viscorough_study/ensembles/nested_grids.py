@@ -27,7 +27,7 @@ from viscorough.contact.loading_path import indent
 from viscorough.contact.options import SolverOptions
 from viscorough.surfaces.indenter import Indenter
 from viscorough.surfaces.self_affine import cut_disc
-from viscorough_study.ensembles.averages import abscissa
+from viscorough_study.ensembles.averages import ROUNDING, abscissa
 
 # Sum the weights of single waves up to this wave number; an integral replaces the sum beyond.
 _LATTICE = 256
@@ -39,8 +39,6 @@ PER_DECADE, _X_LOW = 20, 1e-9
 # iteration on the grid takes longer.
 _OPTIONS = SolverOptions(dense_contacts=1500, dense_interactions=20_000_000)
 _SIDES = (1.0, -1.0)  # factors of the heights of a disc
-# Curves extend beyond their last abscissa by this relative distance, so that rounding does not exclude it.
-_ROUNDING = 1e-9
 
 
 def surface_waves(hurst, across, seed):
@@ -111,7 +109,7 @@ def curve_of_disc(disc, hurst, x, tolerance):
     rms = np.sqrt(np.nanvar(disc) + wave_variances(hurst, across)[1])
     force = 4 * _RMS * x
     indenter = Indenter(disc * (_RMS / rms), 1 / across)
-    until_force = force[-1] * (1 + _ROUNDING)
+    until_force = force[-1] * (1 + ROUNDING)  # so that rounding does not exclude the last abscissa
     curve = indent(indenter, tolerance=tolerance, until_fraction=1.0, until_force=until_force, options=_OPTIONS)
     stiffness = curve.at_force(force)[1] / 4
     return np.log(x / stiffness), np.exp(np.interp(np.log(force), np.log(curve.force), np.log(curve.contact_count)))

@@ -21,6 +21,7 @@ import numpy as np
 import pandas as pd
 
 from viscorough.reference import exponent_beta
+from viscorough_study.ensembles.averages import ROUNDING
 from viscorough_study.ensembles.flat_punch import punch_stiffness
 from viscorough_study.ensembles.nested_grids import PER_DECADE
 from viscorough_study.fits.fine_sentence import TOLERANCE
@@ -35,7 +36,6 @@ STARTS = 10
 SETS = 1000  # default number of simulated sets of discs for `power` and `coverage`
 # Leave a grid out of a decade if β scatters less between discs: a single element touches, and β is 1 on all of them.
 _LEAST_SCATTER = 1e-6
-_ROUNDING = 1e-9
 
 EXPONENTS = {
     "hurst": ("Hurst exponent", "1"),
@@ -103,7 +103,7 @@ class _Curves:
         return Nest(tuple(np.array(self.grids)[kept].tolist()), slopes[:, kept])
 
     def reaches(self, x):
-        return self.x[-1] >= x * (1 - _ROUNDING)
+        return self.x[-1] >= x * (1 - ROUNDING)
 
 
 def _touching(nests):

@@ -11,6 +11,7 @@ import logging
 import numpy as np
 import pandas as pd
 
+from viscorough_study.ensembles.averages import ROUNDING
 from viscorough_study.ensembles.pool import ensembles
 from viscorough_study.fits.intervals import (
     UNDEFINED,
@@ -20,7 +21,7 @@ from viscorough_study.fits.intervals import (
     three_columns,
     with_interval,
 )
-from viscorough_study.fits.power_law import ROUNDING, find_region, in_window, inner_slopes
+from viscorough_study.fits.power_law import find_region, in_window, inner_slopes
 from viscorough_study.run.seeds import local_slope_key, realization_seed
 
 COLUMNS = {

@@ -12,10 +12,10 @@ the effect of this choice.
 import numpy as np
 from scipy.ndimage import find_objects, label
 
+from viscorough_study.ensembles.averages import ROUNDING
 from viscorough_study.fits.conventions import FITTED
 
 FEWEST = 3  # abscissae in the window of a fit: a line through two points says nothing about a power law
-ROUNDING = 1e-9  # relative difference up to which abscissae, or numbers of decades, count as equal
 
 
 # ---- windows of the fits

@@ -1,4 +1,4 @@
-"""Check numbers and arrays in arguments, and evaluate samples over time.
+"""Check numbers and arrays in arguments.
 
 Public functions check their numbers with these functions. Values are SI numbers, or numbers in consistent units; texts,
 truth values, masked arrays and quantities with a unit are refused. `name` is always the name of the checked argument,
@@ -100,30 +100,3 @@ def increasing(name: str, values: ArrayLike, *, above_zero: bool = False, steps:
             return values
     allowed = f"one row of finite numbers{' above 0' if above_zero else ''}, each larger than the one before"
     raise ValueError(f"{name}: allowed is {allowed}{f', or given twice where {steps} steps' if steps else ''}")
-
-
-def jumps_and_slopes(times: Array, load: Array) -> tuple[Array, Array]:
-    """Return the jump of a load just before each sample, and its slope from each sample to the next.
-
-    times, load : samples, shape (samples,). A repeated time means a jump. The load is 0 before the first sample
-
-    Returns the jumps, shape (samples,), and the slopes, shape (samples − 1,); the slope is 0 at a jump.
-    """
-    lengths, increments = np.diff(times), np.diff(load)
-    slopes = np.divide(increments, lengths, out=np.zeros_like(increments), where=lengths > 0)
-    return np.append(load[0], np.where(lengths == 0, increments, 0.0)), slopes
-
-
-def integral(times: Array, values: Array, until: Any) -> Array:
-    """Return the exact integral of a sampled function up to each time of `until`.
-
-    The function is 0 before the first sample, linear between samples, and constant after the last sample.
-
-    times, values : samples of the function, shape (samples,)
-    until : upper limits of the integral, of any shape; the result has this shape
-    """
-    at_samples = np.append(0.0, np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(times)))
-    slopes = np.append(jumps_and_slopes(times, values)[1], 0.0)
-    place = np.maximum(np.searchsorted(times, until, side="right") - 1, 0)
-    after = np.maximum(until - times[place], 0)
-    return at_samples[place] + after * (values[place] + 0.5 * slopes[place] * after)

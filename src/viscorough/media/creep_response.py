@@ -27,7 +27,7 @@ def creep_response(spectrum: Spectrum, load: Load) -> Array:
     θ y' + y = F. It is exact for a force that is linear in time, and is computed without cancellation.
     """
     times = 1 / spectrum.decays
-    delayed, _ = branch_states(np.diff(load.time), load.values, times)
+    delayed = _delayed_responses(np.diff(load.time), load.values, times)
     return spectrum.instantaneous * load.values + spectrum.fluidity * load.integral + delayed @ (spectrum.flows * times)
 
 
@@ -61,55 +61,28 @@ def exponential(x):
 
 
 @njit
-def branch_forces(lengths, loads, relaxation_times):
-    """Return, for each load F and each relaxation time τ, the state z with z' + z/τ = F', at every sample.
+def _delayed_responses(lengths, force, retardation_times):
+    """Return, for each retardation time θ, the state y with θ y' + y = F at every sample, shape (samples, times).
 
-    The shape is (loads, samples, times). F is 0 before the first sample.
-
-    lengths : lengths of the intervals between samples; F jumps at an interval of length 0
-    loads : F at the samples, for one or more loads, shape (loads, samples)
-    """
-    states = np.zeros((loads.shape[0], loads.shape[1], relaxation_times.size))
-    for i in range(loads.shape[0]):
-        states[i, 0] = loads[i, 0]
-    for k in range(lengths.size):
-        for j in range(relaxation_times.size):
-            kept, mean = decay(lengths[k] / relaxation_times[j])
-            for i in range(loads.shape[0]):
-                states[i, k + 1, j] = states[i, k, j] * kept + mean * (loads[i, k + 1] - loads[i, k])
-    return states
-
-
-@njit
-def branch_states(lengths, force, retardation_times):
-    """Return, for each retardation time θ, the state y with θ y' + y = F, and z = F − y, at every sample.
-
-    Both arrays have the shape (samples, times). F is 0 before the first sample.
+    F is 0 before the first sample.
 
     lengths : lengths of the intervals between samples; F jumps at an interval of length 0
     force : F at the samples
     """
     samples, count = force.size, retardation_times.size
-    delayed, left = np.zeros((samples, count)), np.zeros((samples, count))
-    left[0] = force[0]
+    delayed = np.zeros((samples, count))
     for k in range(samples - 1):
         for j in range(count):
-            y, z = delayed[k, j], left[k, j]
-            if lengths[k] == 0:
-                z += force[k + 1] - force[k]
+            x = lengths[k] / retardation_times[j]
+            kept, mean = decay(x)
+            # For the forces F0 and F1 at the start and end of the interval, y becomes exp(−x) y + a F0 + b F1, with
+            # b = 1 − (1 − exp(−x))/x and a = 1 − exp(−x) − b.
+            if x < _SERIES_BELOW:
+                b = 0.0
+                for n in range(_SERIES_TERMS, 0, -1):
+                    b = (1 - b) * x / (n + 1)
+                a = x * mean - b
             else:
-                x = lengths[k] / retardation_times[j]
-                kept, mean = decay(x)
-                # For the forces F0 and F1 at the start and end of the interval, y becomes exp(−x) y + a F0 + b F1, with
-                # b = 1 − (1 − exp(−x))/x and a = 1 − exp(−x) − b.
-                if x < _SERIES_BELOW:
-                    b = 0.0
-                    for n in range(_SERIES_TERMS, 0, -1):
-                        b = (1 - b) * x / (n + 1)
-                    a = x * mean - b
-                else:
-                    a, b = mean - kept, 1 - mean
-                y = y * kept + a * force[k] + b * force[k + 1]
-                z = z * kept + mean * (force[k + 1] - force[k])
-            delayed[k + 1, j], left[k + 1, j] = y, z
-    return delayed, left
+                a, b = mean - kept, 1 - mean
+            delayed[k + 1, j] = delayed[k, j] * kept + a * force[k] + b * force[k + 1]
+    return delayed

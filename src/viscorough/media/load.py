@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscorough.basics.arrays import increasing, integral, real_numbers
+from viscorough.basics.arrays import increasing, real_numbers
 from viscorough.basics.summaries import span
 from viscorough.basics.types import Array, Integers
 
@@ -99,7 +99,19 @@ class Load:
     @property
     def integral(self) -> Array:
         """Return ∫F dt or ∫u dt from the first sample to each sample, shape (samples,)."""
-        return integral(self.time, self.values, self.time)
+        means = 0.5 * (self.values[1:] + self.values[:-1])
+        return np.append(0.0, np.cumsum(means * np.diff(self.time)))
+
+    @property
+    def jumps(self) -> Array:
+        """Return the jump of the load just before each sample, shape (samples,)."""
+        return np.append(self.values[0], np.where(np.diff(self.time) == 0, np.diff(self.values), 0.0))
+
+    @property
+    def slopes(self) -> Array:
+        """Return the slope of the load from each sample to the next, shape (samples − 1,); 0 at a step."""
+        lengths, rises = np.diff(self.time), np.diff(self.values)
+        return np.divide(rises, lengths, out=np.zeros_like(rises), where=lengths > 0)
 
     @property
     def duration(self) -> float:

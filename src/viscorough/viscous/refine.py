@@ -12,7 +12,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscorough.basics.arrays import jumps_and_slopes
 from viscorough.basics.types import Array, Mask
 from viscorough.media.load import Load
 from viscorough.media.medium import Medium
@@ -136,8 +135,7 @@ def _changes_of_slope(load: Load) -> Array:
 
     It is 0 at the samples whose velocity is the velocity just before them.
     """
-    slopes = jumps_and_slopes(load.time, load.values)[1]
-    changes = np.append(slopes, 0.0) - np.append(0.0, slopes)
+    changes = np.append(load.slopes, 0.0) - np.append(0.0, load.slopes)
     return np.where(_is_before_step(load), 0.0, changes)
 
 
@@ -146,30 +144,23 @@ def _is_before_step(load: Load) -> Mask:
     return np.diff(load.time, append=load.time[-1]) == 0
 
 
-def _steps(load: Load) -> tuple[Array, Mask]:
-    """Return the jumps of a load, and whether each sample is just after a jump that is not zero."""
-    jumps = jumps_and_slopes(load.time, load.values)[0]
-    return jumps, jumps != 0
-
-
 def _after_steps_of_depth(medium: Medium, load: Load, refined: RefinedMotion) -> RefinedMotion:
     """Set the force just after steps of the depth, in a medium with J(0) = 0.
 
     A step into the surface needs an infinite force. After a step out of the surface there is no force.
     """
-    jumps, steps = _steps(load)
-    pressed = steps & (jumps > 0)
+    steps, pressed = load.jumps != 0, load.jumps > 0
     force = np.where(pressed & (refined.contact_fraction > 0), np.inf, np.where(steps, 0.0, refined.force))
     return refined._replace(force=force, contact_fraction=np.where(steps & ~pressed, 0.0, refined.contact_fraction))
 
 
 def _after_steps_of_force(medium: Medium, load: Load, refined: RefinedMotion) -> RefinedMotion:
     """Keep depth and contact at steps of the force, in a medium with J(0) = 0."""
-    jumps, steps = _steps(load)
+    steps = load.jumps != 0
     depth, fraction = (
         np.where(steps, np.append(0.0, values[:-1]), values) for values in (refined.depth, refined.contact_fraction)
     )
     velocity = refined.velocity
     if np.isinf(medium.creep_rate(0.0)):
-        velocity = np.where(steps, np.copysign(np.inf, jumps), velocity)
+        velocity = np.where(steps, np.copysign(np.inf, load.jumps), velocity)
     return refined._replace(depth=depth, velocity=velocity, contact_fraction=fraction)

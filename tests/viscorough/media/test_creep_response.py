@@ -7,7 +7,7 @@ import pytest
 
 from support.media import MEDIA
 from viscorough import KelvinVoigt, Load, LoadingCurve, Prony, kinetics
-from viscorough.media.creep_response import branch_forces, creep_response
+from viscorough.media.creep_response import creep_response
 from viscorough.viscous.crossing import first_decrease
 
 MEDIA = MEDIA | {"prony liquid": Prony(0.0, [1e6, 1.0], [1e-5, 4.0])}
@@ -94,15 +94,3 @@ def test_first_decrease_against_dense_sampling():
 @pytest.mark.parametrize("name", ["maxwell", "solid", "prony", "prony liquid", "springpot"])
 def test_creep_decreases_at_a_step_down_where_the_medium_springs_at_once(name):
     assert receding_from(MEDIA[name], [1.0, 1.0, 0.9, 0.9], [0.0, 1.0, 1.0, 2.0]) == 1.0
-
-
-def test_branch_forces_are_integrals_over_the_history_of_the_load():
-    """z = ∫ exp(−(t − s)/τ) dF(s) under a step to 1 at time 0, a ramp to 3 at time 2, a step to 0.5, and a hold."""
-    times, load = np.array([0.0, 2.0, 2.0, 2.5]), np.array([1.0, 3.0, 0.5, 0.5])
-    branches = np.array([1e-4, 0.01, 1.0, 1e6])
-    found = branch_forces(np.diff(times), np.array([load, -2 * load]), branches)
-    at_turn = np.exp(-2 / branches) - branches * np.expm1(-2 / branches)
-    after = at_turn - 2.5
-    expected = [np.ones(4), at_turn, after, after * np.exp(-0.5 / branches)]
-    np.testing.assert_allclose(found[0], expected, rtol=1e-14)
-    np.testing.assert_allclose(found[1], -2 * np.array(expected), rtol=1e-14)

@@ -69,7 +69,7 @@ def random_curve(generator, with_start=None, at_forces=False):
     return RandomCurve(with_random_aspect(indenter, generator), arguments)
 
 
-def curve_failure(case, compute=indent):
+def curve_failure(drawn, compute=indent):
     """Return an error message on the loading curve of a RandomCurve; "" if it is right.
 
     The reference is the direct integration in time, exact from event to event, which shares only the influence
@@ -79,15 +79,15 @@ def curve_failure(case, compute=indent):
     """
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", AccuracyWarning)
-        curve = compute(case.indenter, **case.arguments)
-    events = newtonian_events(case.indenter)
-    tolerance, rounding = case.arguments["tolerance"], _HEIGHT_ROUNDING * max(np.nanmax(case.indenter.initial_gap), 0)
+        curve = compute(drawn.indenter, **drawn.arguments)
+    events = newtonian_events(drawn.indenter)
+    tolerance, rounding = drawn.arguments["tolerance"], _HEIGHT_ROUNDING * max(np.nanmax(drawn.indenter.initial_gap), 0)
     exact = events.depth_at(curve.force)
     if wrong := _error("depth {:.3g} of a level", curve.depth, curve.depth, exact, tolerance, rounding):
         return wrong
-    if "depths" in case.arguments or "forces" in case.arguments:
+    if "depths" in drawn.arguments or "forces" in drawn.arguments:
         return _error_before(curve, events, max(tolerance, FINEST_ACCURACY), rounding)
-    return "" if caught else _error_between(curve, events, case, max(tolerance, FINEST_ACCURACY), rounding)
+    return "" if caught else _error_between(curve, events, drawn, max(tolerance, FINEST_ACCURACY), rounding)
 
 
 def _error(name, places, depth, exact, tolerance, rounding):
@@ -99,9 +99,9 @@ def _error(name, places, depth, exact, tolerance, rounding):
     return f"{name.format(places[worst])} off by {error[worst]:.2g}, tolerance {tolerance:.2g}"
 
 
-def _error_between(curve, events, case, tolerance, rounding):
+def _error_between(curve, events, drawn, tolerance, rounding):
     """Return an error message on depths between the levels, or ""."""
-    arguments, last = case.arguments, curve.force[-1]
+    arguments, last = drawn.arguments, curve.force[-1]
     if curve.contact_fraction[-1] < arguments["until_fraction"] and last < arguments.get("until_force", np.inf):
         return f"stops at a contact fraction of {curve.contact_fraction[-1]:.3g}"
     before_start = curve.contact_fraction < arguments.get("start_fraction", 0.0)
@@ -124,10 +124,10 @@ def _error_before(curve, events, tolerance, rounding):
     return _error("depth before the first level", force, depth, exact, tolerance, rounding)
 
 
-def as_on_large_maps(case):
-    """Check the curve of a case with tiled operators, estimates from blocks and few ranked elements."""
+def as_on_large_maps(drawn):
+    """Check a RandomCurve with tiled operators, estimates from blocks and few ranked elements."""
     options = replace(
-        case.arguments["options"],
+        drawn.arguments["options"],
         rank_first=50,
         rank_all_for_curves=50,
         blocks_from=1,
@@ -136,10 +136,10 @@ def as_on_large_maps(case):
         tiles_share=1.0,
     )
     with patch.object(tiles, "SIDE", 8):
-        return curve_failure(replace(case, arguments=case.arguments | {"options": options}))
+        return curve_failure(replace(drawn, arguments=drawn.arguments | {"options": options}))
 
 
-# {family: (function that draws a case, function that checks it, fraction of the number of cases)}
+# {family: (function that draws a curve, function that checks it, fraction of the number of curves)}
 FAMILIES = {
     "curves": (random_curve, curve_failure, 1.0),
     "starts": (partial(random_curve, with_start=True), curve_failure, 0.1),
@@ -148,10 +148,10 @@ FAMILIES = {
 }
 
 
-def failure(family, seed, case):
-    """Return the failure of one case of a family, "" if there is none. Any exception counts as a failure."""
+def failure(family, seed, number):
+    """Return the failure of one curve of a family, "" if there is none. Any exception counts as a failure."""
     draw, check, _ = FAMILIES[family]
-    generator = np.random.default_rng(realization_seed(seed, *random_indenter_key(case)))
+    generator = np.random.default_rng(realization_seed(seed, *random_indenter_key(number)))
     try:
         return check(draw(generator))
     except Exception as error:
@@ -159,28 +159,28 @@ def failure(family, seed, case):
 
 
 @click.command()
-@click.option("--cases", type=click.IntRange(1), default=12_000, show_default=True, help="Cases of curves.")
+@click.option("--curves", type=click.IntRange(1), default=12_000, show_default=True, help="Curves of a family.")
 @click.option("--seed", type=click.IntRange(0), default=2013, show_default=True, help="Root seed.")
 @click.option("--family", type=click.Choice(list(FAMILIES)), help="Only this family.")
-@click.option("--case", type=click.IntRange(0), help="Only the case of this number.")
+@click.option("--number", type=click.IntRange(0), help="Only the curve of this number.")
 @click.option("--cores", type=click.IntRange(1), default=1, show_default=True, help="Processes.")
 @click.option("--output", type=click.Path(path_type=Path), help="File to write, JSON.")
-def main(cases, seed, family, case, cores, output):
+def main(curves, seed, family, number, cores, output):
     """Count silent failures; the exit code is 1 if there is any."""
     counts, failures = {}, []
     for name in [family] if family else FAMILIES:
-        numbers = [case] if case is not None else range(max(1, round(FAMILIES[name][2] * cases)))
+        numbers = [number] if number is not None else range(max(1, round(FAMILIES[name][2] * curves)))
         counts[name] = len(numbers)
         with Pool(cores) as pool:
             wrongs = pool.imap(partial(failure, name, seed), numbers)
-            for number, wrong in tqdm(zip(numbers, wrongs, strict=True), name, len(numbers), mininterval=2):
+            for drawn, wrong in tqdm(zip(numbers, wrongs, strict=True), name, len(numbers), mininterval=2):
                 if wrong:
-                    failures.append({"family": name, "case": number, "wrong": wrong})
-                    repeat = f"python benchmarks/campaign.py --family {name} --case {number} --seed {seed}"
+                    failures.append({"family": name, "number": drawn, "wrong": wrong})
+                    repeat = f"python benchmarks/campaign.py --family {name} --number {drawn} --seed {seed}"
                     tqdm.write(f"{wrong}\n    {repeat}")
-    click.echo(f"{len(failures)} silent failures among {sum(counts.values())} cases")
+    click.echo(f"{len(failures)} silent failures among {sum(counts.values())} curves")
     if output:
-        save({"seed": seed, "cases": counts, "silent_failures": failures}, output)
+        save({"seed": seed, "curves": counts, "silent_failures": failures}, output)
     raise SystemExit(bool(failures))
 
 

@@ -8,7 +8,7 @@ from viscorough.surfaces.self_affine import self_affine_disc
 
 
 def random_heights(generator, largest=12):
-    """Draw heights of one of KINDS, of a random scale, and with missing elements in a third of the cases.
+    """Draw heights of one of KINDS, of a random scale, and with missing elements with a chance of a third.
 
     generator : numpy Generator
     largest : elements across; a strip has up to eight times as many
@@ -24,7 +24,7 @@ def random_heights(generator, largest=12):
 
 
 def with_random_aspect(indenter, generator):
-    """Give the indenter elements of a random aspect dy/dx from 1/5 to 5 in a third of the cases."""
+    """Give the indenter elements of a random aspect dy/dx from 1/5 to 5 with a chance of a third."""
     if generator.random() > 1 / 3:
         return indenter
     return replace(indenter, row_spacing=indenter.spacing * 5 ** generator.uniform(-1, 1))
@@ -77,7 +77,7 @@ def _one_spike(generator, rows, columns):
 
 
 def _terraces(generator, rows, columns):
-    """Return a rough surface rounded to a few heights, in half of the cases with some noise."""
+    """Return a rough surface rounded to a few heights, with a chance of one half with some noise."""
     heights = _rough(generator, rows, columns)
     step = np.ptp(heights) / generator.integers(1, 7) or 1.0
     return np.floor(heights / step) * step + _noise(generator, heights.shape) * step
@@ -139,7 +139,7 @@ def _edge_patch(generator, rows, columns):
 
 
 def _noise(generator, shape):
-    """Return uniform noise of an amplitude from 1e-6 to 0.1, or none in half of the cases."""
+    """Return uniform noise of an amplitude from 1e-6 to 0.1, or none with a chance of one half."""
     amplitude = 10.0 ** generator.uniform(-6, -1) if generator.random() < 0.5 else 0.0
     return amplitude * generator.random(shape)
 

@@ -86,7 +86,7 @@ def _single_discs(settings):
 
     def add(name, pool, group, until_x, ensembles):
         ends = {"tolerance": curves["tolerance"], "until_x": until_x}
-        samples[name] = _joint_case(ensembles, discs["single_batch"], group, pool=pool, indentation=ends)
+        samples[name] = _in_sequence(ensembles, discs["single_batch"], group, pool=pool, indentation=ends)
 
     longer, roll_off = discs["longer_period"], discs["roll_off"]
     changed = {
@@ -130,7 +130,7 @@ def _ensemble(name, spawn_key, surface, grid):
     return {"name": name, "spawn_key": spawn_key, "surface": surface} | numbers
 
 
-def _joint_case(ensembles, batch, group, **shared):
+def _in_sequence(ensembles, batch, group, **shared):
     """Return the description of a sample (see `disc_samples`) whose batches run through its ensembles in sequence.
 
     batch : number of realizations in a batch; shared : further keys of the description

@@ -4,8 +4,8 @@ A seed consists of a root, the setting `seed`, and a spawn key. The first number
 stream; every part of the study has one stream. The other numbers are properties of a realization, such as its Hurst
 exponent, grid or combination, but never its position in a list. So the random numbers of a realization do not depend on
 other realizations, on their order, or on the number of cores. The numbers of the streams are part of every published
-result: do not change them, and give a new stream a new number. The numbers 7, 9, 13 and 17 belonged to
-parts that are gone.
+result: do not change them, and give a new stream a new number. The numbers 7, 9, 13 and 17 belonged to parts that are
+gone.
 
 Two parts have no stream. The bootstrap of the fits uses the root without a spawn key. The spawn key of a random
 indenter in the stability campaign is only its number (`random_indenter_key`), and the campaign has a
@@ -60,9 +60,6 @@ def solver_race_key(task, hurst):
 def failure_map_key():
     """Return the spawn key of the indenters in the stress tests of all methods (robustness.failure_map)."""
     return _key(6)
-
-
-# Stream number 7 belonged to a table that no longer exists. Do not use this number again.
 
 
 def grid_disc_key(hurst, elements):

@@ -25,7 +25,7 @@ def path(tmp_path):
         "depth": (("level",), np.array([1.0, -0.0, np.nan]), ABOUT),
         "count": (("level",), np.array([1, 2, 3]), ABOUT | {"valid": np.array([1, 3])}),
         "spacing": ((), np.array(0.1), ABOUT),
-        "case": (("level",), np.array(["a", "b", "c"], dtype=object), {"long_name": "case"}),
+        "name": (("level",), np.array(["a", "b", "c"], dtype=object), {"long_name": "name"}),
     }
     netcdf.write(tmp_path / "all.nc", variables, {"title": "All kinds", "tolerance": 1e-3})
     return tmp_path / "all.nc"
@@ -43,7 +43,7 @@ CHANGES = {
     "one bit of a number": assign("depth", [np.nextafter(1.0, 2), -0.0, np.nan]),
     "whole numbers": assign("count", [1, 2, 4]),
     "a number alone": assign("spacing", 0.2),
-    "a text": assign("case", np.array(["a", "b", "d"], dtype=object)),
+    "a text": assign("name", np.array(["a", "b", "d"], dtype=object)),
     "a unit": lambda file: file["depth"].setncattr("units", "um"),
     "an attribute less": lambda file: file.delncattr("tolerance"),
     "the history": lambda file: file.setncattr("history", "by another program"),

@@ -88,13 +88,13 @@ def test_bad_files_of_heights_are_one_line(tmp_path):
     np.save(tmp_path / "whole.npy", np.zeros((3, 3)))
     np.savez(tmp_path / "archive.npz", np.zeros((3, 3)))
     whole = (tmp_path / "whole.npy").read_bytes()
-    cases = {"cut.npy": whole[:-8], "head.npy": whole[:9], "empty.npy": b"", "text.npy": b"0 1\n2 3\n"}
-    cases |= {"archive.npy": (tmp_path / "archive.npz").read_bytes()}
-    cases |= {"open.npy": whole.replace(b"(3, 3)", b"(3, 3 "), "odd.npy": whole.replace(b"False", b"Fal%e")}
-    for name, content in cases.items():
+    damaged = {"cut.npy": whole[:-8], "head.npy": whole[:9], "empty.npy": b"", "text.npy": b"0 1\n2 3\n"}
+    damaged |= {"archive.npy": (tmp_path / "archive.npz").read_bytes()}
+    damaged |= {"open.npy": whole.replace(b"(3, 3)", b"(3, 3 "), "odd.npy": whole.replace(b"False", b"Fal%e")}
+    for name, content in damaged.items():
         (tmp_path / name).write_bytes(content)
     (tmp_path / "folder.npy").mkdir()
-    for name in (*cases, "missing.npy", "missing.nc", "missing.txt", "missing", "folder.npy"):
+    for name in (*damaged, "missing.npy", "missing.nc", "missing.txt", "missing", "folder.npy"):
         with refused(name):
             read_heights(tmp_path / name, 1.0)
 

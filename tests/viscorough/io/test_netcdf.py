@@ -94,11 +94,11 @@ def test_missing_foreign_and_damaged_files_are_one_line(tmp_path):
     netcdf.write(tmp_path / "whole.nc", *content_of(np.random.default_rng(0).random(5_000)))
     whole = (tmp_path / "whole.nc").read_bytes()
     (tmp_path / "folder.nc").mkdir()
-    cases = {"missing.nc": None, "folder.nc": None, "empty.nc": b"", "text.nc": b"depth,force\n1,2\n"}
-    cases |= {f"cut{share}.nc": whole[: len(whole) * share // 100] for share in (1, 99)}
-    cases |= {f"{name}.nc": damage(whole) for name, damage in DAMAGES.items()}
-    for name, damaged in cases.items():
-        if damaged is not None:
-            (tmp_path / name).write_bytes(damaged)
+    contents = {"missing.nc": None, "folder.nc": None, "empty.nc": b"", "text.nc": b"depth,force\n1,2\n"}
+    contents |= {f"cut{share}.nc": whole[: len(whole) * share // 100] for share in (1, 99)}
+    contents |= {f"{name}.nc": damage(whole) for name, damage in DAMAGES.items()}
+    for name, content in contents.items():
+        if content is not None:
+            (tmp_path / name).write_bytes(content)
         with refused(f"{name}: not readable"):
             netcdf.read(tmp_path / name)

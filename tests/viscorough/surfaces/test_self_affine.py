@@ -53,7 +53,7 @@ def test_random_amplitudes_are_complex_gaussian():
     power = np.abs(wave * k**1.3) ** 2
     power /= power.mean()
     phase = np.angle(wave) / (2 * np.pi) + 0.5
-    # The chance of a false alarm is 1e-4 in each case; estimating the mean makes it smaller still in the first.
+    # The chance of a false alarm is 1e-4 in each test; estimating the mean makes it smaller still in the first.
     assert stats.kstest(power, "expon").pvalue > 1e-4
     assert stats.kstest(phase, "uniform").pvalue > 1e-4
 

@@ -60,7 +60,7 @@ def test_force_just_after_a_turn_does_not_depend_on_a_sample_close_to_it():
     assert moved(*spring, times, depth, by_depth=True).force[1] == 0
 
 
-def random_case(number):
+def random_motion(number):
     """Return a row of springs, a medium, and a history with holds, rests, and steps if the medium allows them."""
     random = np.random.default_rng([54, number])
     medium = random_medium(random)
@@ -114,7 +114,7 @@ def refined(times, load, parts):
 @pytest.mark.parametrize("number", range(10))
 def test_steps_in_time_approach_the_exact_motion(number):
     """Steps in time resolve no contact or loss of contact within a step, so the difference shrinks with the steps."""
-    gaps, weights, medium, times, load, by_depth = random_case(number)
+    gaps, weights, medium, times, load, by_depth = random_motion(number)
     spectrum = medium.relaxation
     same = SpringsAndDashpots(
         spectrum.viscosity, spectrum.relaxed_modulus, tuple(spectrum.moduli), tuple(spectrum.times)
@@ -134,7 +134,7 @@ def test_steps_in_time_approach_the_exact_motion(number):
 
 @pytest.mark.parametrize("number", range(40))
 def test_motion_does_not_depend_on_samples_of_a_linear_history(number):
-    *row, times, load, by_depth = random_case(number)
+    *row, times, load, by_depth = random_motion(number)
     motion = moved(*row, times, load, by_depth=by_depth)
     fine_times, fine_load, place = refined(times, load, 7)
     again = moved(*row, fine_times, fine_load, by_depth=by_depth)
@@ -148,7 +148,7 @@ def test_motion_does_not_depend_on_samples_of_a_linear_history(number):
 @pytest.mark.parametrize("number", range(40))
 def test_values_at_a_sample_are_the_limits_just_after_it(number):
     """Just after the sample the velocity is also the slope of the depth. A step gives the values before it first."""
-    *row, times, load, by_depth = random_case(number)
+    *row, times, load, by_depth = random_motion(number)
     motion = moved(*row, times, load, by_depth=by_depth)
     ramps = np.flatnonzero(np.diff(times) > 0)
     delay = 1e-9 * np.diff(times)[ramps]
@@ -170,7 +170,7 @@ def test_values_at_a_sample_are_the_limits_just_after_it(number):
 def test_deflections_add_up_to_the_creep_response_in_the_largest_contact(duration):
     """After a long hold a fluid carries the same pressure everywhere, so all springs touch at once in a reload."""
     for number in range(0, 400, 2):
-        gaps, weights, medium, times, force, _ = random_case(number)
+        gaps, weights, medium, times, force, _ = random_motion(number)
         load = Load(duration * times, force=force)
         motion = moved(gaps, weights, medium, load.time, load.values, by_depth=False)
         creep = creep_response(spectrum_of(medium.relaxation, medium.retardation), load)
@@ -182,7 +182,7 @@ def test_deflections_add_up_to_the_creep_response_in_the_largest_contact(duratio
 @pytest.mark.parametrize("number", range(40))
 def test_spring_forces_fall_along_the_row_and_add_up(number):
     """The derivative c = −∂φ/∂g ≥ 0 makes all pressures positive."""
-    gaps, weights, medium, times, load, by_depth = random_case(number)
+    gaps, weights, medium, times, load, by_depth = random_motion(number)
     motion = moved(gaps, weights, medium, times, load, by_depth=by_depth)
     largest = max(motion.force.max() / weights.sum(), motion.pressures.max())
     assert (motion.pressures >= -1e-12 * largest).all()

@@ -24,7 +24,7 @@ def table():
     return validate_solvers.validation_table(GRIDS, LIMITS, MARGIN)
 
 
-def test_every_case_passes_on_every_grid(table):
+def test_every_comparison_passes_on_every_grid(table):
     assert validate_solvers.failures(table, MARGIN) == []
     assert table["passed"].all()
     assert list(table.columns) == list(validate_solvers.COLUMNS)

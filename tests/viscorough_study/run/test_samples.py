@@ -78,7 +78,7 @@ def test_discs_of_the_second_reading_are_cut_from_a_square_of_their_own_period(s
     assert sample["indentation"] == {"tolerance": 0.01, "until_x": 0.3}
 
 
-def test_tenth_combination_is_a_separate_case(settings):
+def test_tenth_combination_is_a_separate_sample(settings):
     """The batches of the nine combinations stay as they are."""
     nine = samples.disc_samples(settings)
     combinations = settings["discs"]["combinations"]

@@ -77,12 +77,12 @@ def sets():
 
 # The rectangular elements with the smallest and the largest eigenvalues among all sets above.
 RECTANGLES = [("scattered", 2.0), ("lattice", 0.2), ("lattice", 5.0), ("square", 5.0), ("hills with holes", 5.0)]
-CASES = [(*case, np.float64) for case in [(name, 1.0) for name, _ in sets()] + RECTANGLES]
+PROBLEMS = [(*problem, np.float64) for problem in [(name, 1.0) for name, _ in sets()] + RECTANGLES]
 ROUNDED_TO_BYTES = [("scattered", 1.0), ("square", 5.0), ("lattice", 5.0), ("strip", 1.0)]
-CASES += [(*case, np.float32) for case in ROUNDED_TO_BYTES]
+PROBLEMS += [(*problem, np.float32) for problem in ROUNDED_TO_BYTES]
 
 
-@pytest.mark.parametrize(("name", "aspect", "precision"), CASES)
+@pytest.mark.parametrize(("name", "aspect", "precision"), PROBLEMS)
 def test_preconditioner_is_symmetric_and_close_to_the_inverse(name, aspect, precision):
     inside = np.pad(dict(sets())[name], BORDER)
     assert_close_to_the_inverse(inside, 1.4 if aspect in (1, 2) else 1.6, aspect, precision)

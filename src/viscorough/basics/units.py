@@ -56,7 +56,7 @@ def quantity(text: str) -> Quantity:
     return Quantity(float(match[1]), match[2])
 
 
-def in_si(value: Quantity | float, unit: str, length_unit: str, name: str) -> float:
+def in_si(stated: Quantity, unit: str, length_unit: str, name: str) -> float:
     """Convert a number with or without a unit to a finite number in the SI unit `unit`.
 
     length_unit : unit of a plain length. If it is "1" (not known), numbers are in consistent units and are returned
@@ -65,7 +65,6 @@ def in_si(value: Quantity | float, unit: str, length_unit: str, name: str) -> fl
     Raises ValueError, with a message that starts with `name`, for a unit of another dimension, and for any unit if the
     unit of length is not known.
     """
-    stated = value if isinstance(value, Quantity) else Quantity(value)
     if stated.unit and length_unit == UNKNOWN:
         text = f"{name} {stated}: needs a plain number, since the unit of length is not known"
         raise ValueError(f"{text}; argument unit where heights are read states it")

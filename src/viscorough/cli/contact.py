@@ -59,7 +59,7 @@ def contact(
     """
     options.require((force is None) != (depth is None), "one of --force and --depth is needed")
     options.elasticity(length_unit="m", **constants)  # raises an error if these constants contradict each other
-    indenter, unit = surface_options.read_indenter(heights, output)
+    indenter, unit = heights.read(output)
     modulus, elastic_constants = options.elasticity(length_unit=unit, **constants)
 
     from viscorough.contact.one_contact import contact_at

@@ -35,12 +35,7 @@ def check_output(output: Path, **inputs: Path | None) -> None:
 
 def printable_name(file: Path) -> str:
     """Return the name of a file as text; bytes of the name that are no valid text are written with backslashes."""
-    return printable_path(Path(file.name))
-
-
-def printable_path(file: Path) -> str:
-    """Return the path of a file as text; bytes of the path that are no valid text are written with backslashes."""
-    return str(file).encode(errors="backslashreplace").decode()
+    return file.name.encode(errors="backslashreplace").decode()
 
 
 LONGEST = 60  # longest time allowed for opening a file, in seconds
@@ -103,26 +98,28 @@ def load_from_options(
     length_unit : unit of length of the surface
     columns : {quantity: number of its column in the history}
 
-    One of the three options is given; the others are None. The load is a number for --force, and a Load for a history.
+    A history replaces the force. The load is a number for --force, and a Load for a history.
     """
     for kind, history in (("force", force_history), ("depth", depth_history)):
         if history is not None:
             load = viscorough.read_load(history, kind, length_unit, columns)
             return load, {kind: printable_name(history)}
-    number = units.in_si(force or Quantity(1.0), "N", length_unit, "--force")
+    assert force is not None  # one of the three options is given
+    number = units.in_si(force, "N", length_unit, "--force")
     return number, {"force": number}
 
 
 def read_half_space(viscosity: Quantity | None, medium: Path | None, length_unit: str) -> tuple[Any, dict[str, Any]]:
     """Return (viscosity or Medium, attributes for the output file) from --viscosity or --medium.
 
-    One of the two options is given; the other is None.
+    A medium replaces the viscosity.
     """
     if medium is not None:
         half_space = viscorough.read_medium(medium, length_unit)
         text = medium.read_bytes().decode("utf-8-sig", errors="replace").strip()
         return half_space, {"medium": printable_name(medium), "medium_text": text}
-    number = units.in_si(viscosity or Quantity(1.0), "Pa s", length_unit, "--viscosity")
+    assert viscosity is not None  # one of the two options is given
+    number = units.in_si(viscosity, "Pa s", length_unit, "--viscosity")
     return number, {"viscosity": number}
 
 

@@ -73,53 +73,38 @@ def indent(
         viscorough indent scan.txt --spacing 0.37,0.5 --unit um --detrend plane \\
             -o curve.nc
     """
-    settings: dict[str, Any] = {"depths": depths, "forces": forces, "grid_error": grid_error or None}
-    settings |= {"until_fraction": until_fraction, "until_force": until_force}
-    _check_exclusive(settings)
-    settings["tolerance"] = tolerance
+    _check_exclusive(
+        {"--depths": depths, "--forces": forces}, {"--until-fraction": until_fraction, "--until-force": until_force}
+    )
     options.elasticity(length_unit="m", **constants)  # raises an error if these constants contradict each other
-    indenter, unit = surface_options.read_indenter(heights, output)
+    indenter, unit = heights.read(output)
     modulus, elastic_constants = options.elasticity(length_unit=unit, **constants)
-    settings["depths"] = options.lengths(depths, unit, "--depths")
-    settings["forces"] = options.forces(forces, modulus, unit, "--forces")
+    how: dict[str, Any] = {"tolerance": tolerance, "estimate_grid_error": grid_error, "threads": threads}
+    how["depths"] = options.lengths(depths, unit, "--depths")
+    how["forces"] = options.forces(forces, modulus, unit, "--forces")
+    how["until_fraction"] = until_fraction or (0.9 if until_force is None else 1.0)
     stop = options.forces(None if until_force is None else [until_force], modulus, unit, "--until-force")
-    settings["until_force"] = stop[0] if stop else None
+    how["until_force"] = stop[0] if stop else math.inf
 
     from viscorough.io.curves import curve_to_content
 
     with messages.progress_bar("viscorough indent", progress) as report:
-        curve = viscorough.indent(indenter, **_arguments(settings), progress=report, threads=threads)
+        curve = viscorough.indent(indenter, **how, progress=report)
     attributes = heights.attributes(indenter, unit) | elastic_constants
     files.write_output(curve_to_content(curve, modulus), output, unit, **attributes)
     lines = [_last_level(curve, indenter, modulus), curve.grid_error_text]
     messages.announce(output, "\n".join(filter(None, lines)))
 
 
-def _check_exclusive(settings: dict[str, Any]) -> None:
-    """Raise UsageError for options that exclude each other.
+def _check_exclusive(levels: dict[str, Any], ends: dict[str, Any]) -> None:
+    """Raise UsageError for options that exclude each other: two that choose the levels, or one and an end of the curve.
 
-    settings : {name of an option: its value, or None if the option is not given}
+    levels, ends : {option: its value, or None if it is not given}
     """
-    levels = {"--depths": settings["depths"], "--forces": settings["forces"]}
-    ends = {"--until-fraction": settings["until_fraction"], "--until-force": settings["until_force"]}
     stated = [name for name, value in (levels | ends).items() if value is not None]
     if len(stated) > 1:
         exclusive = f"{stated[0]} and {stated[-1]} exclude each other; one of them is allowed"
         options.require(stated[0] not in levels, exclusive)
-
-
-def _arguments(settings: dict[str, Any]) -> dict[str, Any]:
-    """Convert options to keyword arguments of viscorough.indent.
-
-    settings : {name of an option: its value, or None if the option is not given}
-    """
-    given = {name: settings[name] for name in ("depths", "forces", "tolerance")}
-    given["estimate_grid_error"] = bool(settings["grid_error"])
-    fraction, force = settings["until_fraction"], settings["until_force"]
-    given["until_force"] = math.inf if force is None else force
-    if fraction is None:
-        fraction = 0.9 if force is None else 1.0
-    return given | {"until_fraction": fraction}
 
 
 def _last_level(curve: viscorough.LoadingCurve, indenter: viscorough.Indenter, modulus: float | None) -> str:

@@ -74,20 +74,18 @@ def march(
 
     from viscorough.io.motion_files import motion_to_content
 
-    indenter, unit = surface_options.read_indenter(heights, output, force_history=force_history, medium=medium)
-    load, load_attributes = files.load_from_options(force, force_history, unit, columns=columns)
+    indenter, unit = heights.read(output, force_history=force_history, medium=medium)
+    load, load_attributes = files.load_from_options(force or Quantity(1.0), force_history, unit, columns=columns)
     if times:  # with --times, `load` is a number, the constant force
         load = viscorough.Load(np.append(0.0, times), force=np.full(1 + len(times), load))
-    half_space, about = files.read_half_space(viscosity, medium, unit)
+    half_space, about = files.read_half_space(viscosity or Quantity(1.0), medium, unit)
     how: dict[str, Any] = {"method": method} | ({} if until_fraction is None else {"until_fraction": until_fraction})
     with messages.progress_bar("viscorough march", progress) as report:
         motion = viscorough.march(indenter, load, half_space, **how, progress=report)
     content = motion_to_content(motion)
     about |= load_attributes | heights.attributes(indenter, unit)
     files.write_output(content, output, unit, method=method, **about)
-    depth, last = (
-        with_unit(motion.depth[-1], motion.length_unit, 6),
-        with_unit(motion.time[-1], si_unit("s", unit), 6),
-    )
+    depth = with_unit(motion.depth[-1], motion.length_unit, 6)
+    last = with_unit(motion.time[-1], si_unit("s", unit), 6)
     contact = f"{round(motion.contact_fraction[-1] * indenter.elements)} of {indenter.elements} elements in contact"
-    messages.announce(output, f"{motion.time.size} levels, depth {depth} at time {last} with {contact}")
+    messages.announce(output, f"{motion.time.size} times, depth {depth} at time {last} with {contact}")

@@ -55,7 +55,7 @@ def reduce(
     from viscorough.io.heights import line_of
     from viscorough.io.scan import in_metres
 
-    line_or_map, stated = heights.path, heights.parsed()
+    line_or_map = heights.path
     files.check_output(output, heights=line_or_map)
     content = heights.content()
     scan = heights.scan(content, dimensions=None)
@@ -65,7 +65,7 @@ def reduce(
         text = "--channel and preparation are for maps; this is a line"
         options.require(heights.options.keys() <= {"spacing", "unit"}, text)
         about = {"heights": files.printable_name(line_or_map)}
-        line, unit = line_of(line_or_map, content, scan, **stated)
+        line, unit = line_of(line_or_map, content, scan, **heights.arguments)
         lines: Any = [in_metres(line, unit)]
     else:
         no_table = "--realizations: several curves are no table; a NetCDF file (.nc) is needed"

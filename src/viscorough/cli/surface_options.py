@@ -30,27 +30,22 @@ class HeightsFile:
     """File of heights, with the options that the user gave for reading and preparing it.
 
     options : {name of an option: its text, or True for a flag}
+    arguments : the options as arguments of viscorough.read_heights
     """
 
     path: Path
     options: dict[str, Any]
+    arguments: dict[str, Any]
 
-    def parsed(self) -> dict[str, Any]:
-        """Convert the options to arguments of read_heights.
+    def read(self, output: Path, **inputs: Path | None) -> tuple[viscorough.Indenter, str]:
+        """Check that the output can be written, then read and prepare the heights.
 
-        Raises ValueError, with the name of the option, for a text that cannot be converted.
+        Returns the indenter in metres, and the unit of the user's heights. Raises ValueError for an output that cannot
+        be written, and for invalid heights.
+
+        inputs : other input files of the command, which the output must not replace; see files.check_output
         """
-        from viscorough.io.atomic import path_named
-
-        values = dict(self.options)
-        for name in values.keys() & _VALUES.keys():
-            with path_named(f"--{name} {values[name]}"):
-                values[name] = _VALUES[name](values[name])
-        return values
-
-    def read(self) -> tuple[viscorough.Indenter, str]:
-        """Read and prepare the heights; return the indenter in metres, and the unit of the user's heights."""
-        self.parsed()  # raises an error for a wrong option before the file is read
+        files.check_output(output, heights=self.path, **inputs)
         return self.indenter(self.scan(self.content(), dimensions=2))
 
     def content(self) -> bytes:
@@ -69,16 +64,15 @@ class HeightsFile:
 
         Raises ValueError if neither the file nor the user states the unit of length.
         """
-        from viscorough.basics import units
         from viscorough.io import heights
         from viscorough.io.scan import NOT_STATED
 
-        channel, flip = self.options.get("channel"), self.options.get("flip", False)
+        channel, flip = self.arguments.get("channel"), self.arguments.get("flip", False)
         scan = heights.scan_of(self.path, content, channel=channel, dimensions=dimensions, flip=flip)
-        scale = self.parsed().get("scale")
-        if scan.unit == NOT_STATED and "unit" not in self.options and not (scale and scale.unit):
+        scale = self.arguments.get("scale")
+        if scan.unit == NOT_STATED and "unit" not in self.arguments and not (scale and scale.unit):
             text = "the file states no unit of length; --unit, as --unit um, is needed"
-            spacing = "" if scan.spacing is not None or "spacing" in self.options else ", and --spacing"
+            spacing = "" if scan.spacing is not None or "spacing" in self.arguments else ", and --spacing"
             raise ValueError(f"{self.path}: {text}{spacing}, or --unit {units.UNKNOWN} for consistent units")
         return scan
 
@@ -87,9 +81,8 @@ class HeightsFile:
         from viscorough.io import heights
         from viscorough.io.scan import in_metres
 
-        options = self.parsed()
-        options.pop("channel", None)
-        indenter, unit = heights.map_of(self.path, scan, **options)
+        how = {name: value for name, value in self.arguments.items() if name != "channel"}
+        indenter, unit = heights.map_of(self.path, scan, **how)
         return in_metres(indenter, unit), unit
 
     def attributes(self, indenter: viscorough.Indenter, unit: str) -> dict[str, object]:
@@ -139,6 +132,17 @@ _VALUES: dict[str, Callable[[str], Any]] = {
 }
 
 
+def _converted(texts: dict[str, Any]) -> dict[str, Any]:
+    """Convert the options of a HeightsFile to arguments of read_heights. Raises ValueError, with the option's name."""
+    from viscorough.io.atomic import path_named
+
+    arguments = dict(texts)
+    for name in texts.keys() & _VALUES.keys():
+        with path_named(f"--{name} {texts[name]}"):
+            arguments[name] = _VALUES[name](texts[name])
+    return arguments
+
+
 def heights_input(argument: str = "heights") -> Callable[..., Any]:
     """Return a decorator that adds an argument for a file of heights, and the options for reading it, to a command.
 
@@ -176,21 +180,8 @@ def heights_input(argument: str = "heights") -> Callable[..., Any]:
         def packed(**values: Any) -> Any:
             path, stated = values.pop(argument), {name: values.pop(name) for name in _READING + _PREPARATION}
             given = {name: value for name, value in stated.items() if value not in (None, False, "none")}
-            return command(heights=HeightsFile(path, given), **values)
+            return command(heights=HeightsFile(path, given, _converted(given)), **values)
 
         return packed
 
     return decorate
-
-
-def read_indenter(heights: HeightsFile, output: Path, **inputs: Path | None) -> tuple[viscorough.Indenter, str]:
-    """Check that the output can be written, then read and prepare the heights of a HeightsFile.
-
-    Returns the indenter in metres, and the unit of the user's heights.
-
-
-    inputs : other input files of the command, which the output must not replace; see files.check_output
-    Raises ValueError for an output that cannot be written and for invalid heights.
-    """
-    files.check_output(output, heights=heights.path, **inputs)
-    return heights.read()

@@ -140,10 +140,10 @@ def self_affine_square(
     points = whole_number("points", points, at_least=2)
     memory.require(_BYTES_PER_POINT * points**2, f"a surface of {points} x {points} points")
     exponent = spectrum.hurst_exponent(hurst) + 1
-    longest, level, fixed = spectrum.wave_options(period=points, **waves)
+    longest, density, fixed = spectrum.wave_options(period=points, **waves)
 
     wavenumber = np.hypot(np.fft.fftfreq(points, 1 / points)[:, None], np.arange(points // 2 + 1))
-    amplitude = spectrum.amplitude(wavenumber, exponent, longest, level)
+    amplitude = spectrum.amplitude(wavenumber, exponent, longest, density)
     amplitude[0, 0] = 0
     if not corners:
         amplitude[wavenumber > points / 2] = 0

@@ -8,21 +8,21 @@ from viscorough.basics.arrays import positive, real_number, whole_number
 from viscorough.basics.types import Array, Seed
 
 
-def amplitude(wavenumber: Array, exponent: float, longest: float, level: float) -> Array:
+def amplitude(wavenumber: Array, exponent: float, longest: float, density: float) -> Array:
     """Return the amplitude of waves with k periods per period of the surface, without a prefactor.
 
-    The amplitude is k^-exponent for k >= k₀, and √level · k₀^-exponent for k < k₀, where k₀ is the wavenumber of the
-    roll-off. For k = 0 it is finite, so the caller must set it to zero.
+    The amplitude is k^-exponent for k >= k₀, and √d · k₀^-exponent for k < k₀, where k₀ is the wavenumber of the
+    roll-off and d the density. For k = 0 it is finite, so the caller must set it to zero.
 
     wavenumber : numbers k
     exponent : half the exponent of the power spectral density
     longest : k₀, or 0 without a roll-off
-    level : spectral density of waves with k < k₀, relative to the spectral density at k₀
+    density : spectral density of waves with k < k₀, relative to the spectral density at k₀
     """
     modulus = np.maximum(wavenumber, max(1, longest))
     np.power(modulus, -exponent, out=modulus)
     if longest > 1:
-        modulus[wavenumber < longest] *= np.sqrt(level)
+        modulus[wavenumber < longest] *= np.sqrt(density)
     return modulus
 
 
@@ -33,8 +33,8 @@ def wave_options(
 
     period : period of the surface, in the unit of `roll_off_wavelength`
 
-    Returns (longest, level, fixed): the arguments `longest` and `level` of the function `amplitude`, and True if only
-    the phases of the waves are random.
+    Returns (longest, density, fixed): two arguments of the function `amplitude`, and True if only the phases of the
+    waves are random.
 
     Raises ValueError for values out of range.
     """
@@ -43,21 +43,21 @@ def wave_options(
     return *_roll_off(roll_off_wavelength, roll_off_level, period), amplitudes == "fixed"
 
 
-def _roll_off(wavelength: float | None, level: float, period: float) -> tuple[float, float]:
-    """Return period/wavelength of the roll-off (0 without a roll-off), and the checked level.
+def _roll_off(wavelength: float | None, density: float, period: float) -> tuple[float, float]:
+    """Return period/wavelength of the roll-off (0 without a roll-off), and the checked density.
 
     wavelength : wavelength of the roll-off, or None without a roll-off
-    level : spectral density of longer waves, relative to the spectral density at the roll-off
+    density : spectral density of longer waves, relative to the spectral density at the roll-off
     period : period of the surface, in the same unit as the wavelength
     """
-    level = real_number("roll_off_level", level)
-    if level < 0:
-        raise ValueError(f"roll_off_level: must be a finite number >= 0, not {level!r}")
+    density = real_number("roll_off_level", density)
+    if density < 0:
+        raise ValueError(f"roll_off_level: must be a finite number >= 0, not {density!r}")
     if wavelength is None:
-        return 0.0, level
+        return 0.0, density
     # Due to this factor, waves of exactly the roll-off wavelength belong to the power law in spite of rounding.
     rounding = 1 - 1e-12
-    return rounding * period / positive("argument roll_off_wavelength", wavelength), level
+    return rounding * period / positive("argument roll_off_wavelength", wavelength), density
 
 
 def scale_factor(rms: float, mean_square: Any) -> float:

@@ -58,15 +58,15 @@ def test_random_amplitudes_are_complex_gaussian():
     assert stats.kstest(phase, "uniform").pvalue > 1e-4
 
 
-@pytest.mark.parametrize("level", [0.0, 0.25, 1.0])
-def test_spectrum_is_flat_below_the_roll_off(level):
+@pytest.mark.parametrize("density", [0.0, 0.25, 1.0])
+def test_spectrum_is_flat_below_the_roll_off(density):
     """Fixed amplitudes give the spectrum itself. Waves of the roll-off wavelength belong to the power law."""
-    square = spectrum_of_square(0.8, roll_off_wavelength=6.4, roll_off_level=level)
-    line = spectrum_of_line(0.8, roll_off_wavelength=0.1, roll_off_level=level)
+    square = spectrum_of_square(0.8, roll_off_wavelength=6.4, roll_off_level=density)
+    line = spectrum_of_line(0.8, roll_off_wavelength=0.1, roll_off_level=density)
     for (k, power), exponent in ((square, -3.6), (line, -2.6)):
         relative, above = power / power[k == 10][0], k >= 10
         np.testing.assert_allclose(relative[above], (k[above] / 10) ** exponent, rtol=1e-9)
-        np.testing.assert_allclose(relative[~above], level, rtol=1e-9, atol=1e-20)
+        np.testing.assert_allclose(relative[~above], density, rtol=1e-9, atol=1e-20)
 
 
 @pytest.mark.parametrize("n", [1, 4, 5, 33])

@@ -8,7 +8,7 @@ for element i, and an entry for each neighbour that is in contact. If no other e
 the row is exact (Kolotilina and Yeremin 1993). The module sparse_factor describes how G is stored.
 
 The remainder G K Gᵀ − 1 is smooth, since it comes from the deflection by distant loads. The coarse correction
-approximates the remainder on a coarser grid, the next grid level, whose elements are blocks of elements. In each block
+approximates the remainder on a coarser grid, whose elements are blocks of elements. In each block
 the approximation uses a single vector, which contains the row sums of G for the elements of the block. Let W be the
 matrix whose columns are these vectors, normalised to unit length. Let a be the diagonal matrix of the lengths of the
 vectors before normalisation. Then
@@ -49,11 +49,11 @@ _BEFORE_BLOCK = [(-1, -1), (-1, 0), (-1, 1), (0, -1)]
 # Number of elements along each side of a block of the coarse correction, if the elements are square. The number of
 # iterations depends only weakly on _SIDE, and on the next two constants _RATIO and _DENSE.
 _SIDE = 8
-# A block of the next coarser grid level contains this number of blocks along each side.
+# A block of the next coarser grid contains this number of blocks along each side.
 _RATIO = 4
-# If a grid level has at most this number of blocks along each side, its matrix is inverted exactly (see `_FewBlocks`).
+# If a grid has at most this number of blocks along each side, its matrix is inverted exactly (see `_FewBlocks`).
 _DENSE = 9
-# When elements join or leave the contact set, the coarse grid levels of the preconditioner are not updated at once, but
+# When elements join or leave the contact set, the coarse grids of the preconditioner are not updated at once, but
 # when the number of these elements exceeds this share of the number of elements in contact.
 _OUTDATED = 0.02
 # Largest number of blocks in one call of `_factorise` on a thread.
@@ -81,7 +81,7 @@ def _rows(field, place, width):
 
 @njit
 def _factorise(amplitude, places, before, slots, kernel, rows, weights, matrix, present, near):
-    """Compute the sparse factor G of the matrix 1 + a K a on a coarse grid level, for some of its blocks.
+    """Compute the sparse factor G of the matrix 1 + a K a on a coarse grid, for some of its blocks.
 
     K contains the influence coefficients between blocks, and a is a diagonal matrix (see the module's docstring).
 
@@ -124,7 +124,7 @@ def _normalise(weights, blocks, squares):
     """Scale the vector of weights in every block to unit length, in place; store the squares of the former lengths.
 
     weights : weights of all blocks, in one array
-    blocks : for each weight, the index of its block on the next coarser grid level
+    blocks : for each weight, the index of its block on the next coarser grid
     squares : the squares of the former lengths are stored here, by block
     """
     squares[:] = 0
@@ -136,15 +136,15 @@ def _normalise(weights, blocks, squares):
 
 @njit(fastmath=True)
 def _restrict(residual, places, rows, width, weights, blocks, values, loads):
-    """Store G r in `values`, and Wᵀ G r in `loads`, for a residual r on a coarse grid level.
+    """Store G r in `values`, and Wᵀ G r in `loads`, for a residual r on a coarse grid.
 
-    G is the sparse factor of this level. W has a column for each block of the next coarser level.
+    G is the sparse factor of this grid. W has a column for each block of the next coarser grid.
 
     residual : r, flat field
     places : indices in flat fields of the blocks that the rows of G belong to
     rows : rows of G
     width : length of a row of flat fields
-    weights, blocks : the nonzero entry in each row of W, and its column: the index of a block of the coarser level
+    weights, blocks : the nonzero entry in each row of W, and its column: the index of a block of the coarser grid
     """
     loads[:] = 0
     for t in range(places.size):
@@ -199,7 +199,7 @@ class Preconditioner:
         sides = round(_SIDE / aspect**0.5), round(_SIDE * aspect**0.5)  # blocks are about as long as wide
         self._factor = SparseFactor(height, width, sides, aspect, precision, threads)
         blocks = [n + 2 * BORDER for n in self._factor.squares.shape]
-        self._coarser = _coarse_level(sides, aspect, blocks[0], blocks[1], threads)
+        self._coarser = _coarse_grid(sides, aspect, blocks[0], blocks[1], threads)
         self._changed, self._scale = 0, np.zeros(blocks)
         self._squares, self._loads = np.zeros((2, *blocks))
 
@@ -237,7 +237,7 @@ class Preconditioner:
 
 
 class _ManyBlocks:
-    """Approximate inverse of the matrix 1 + a K a (see the module's docstring) on a grid level with many blocks.
+    """Approximate inverse of the matrix 1 + a K a (see the module's docstring) on a grid with many blocks.
 
     sides : rows and columns of elements in a block
     aspect : dy/dx of the elements
@@ -254,12 +254,12 @@ class _ManyBlocks:
         self._before = np.array(_BEFORE_BLOCK) @ [self._width, 1]
         self._slots = np.array([*map(BEFORE.index, _BEFORE_BLOCK), NEIGHBOURS])
         self._kernel = _coupling(sides, aspect, *np.transpose([*_BEFORE_BLOCK, (0, 0)]))
-        # Map each block to the block of the next coarser grid level that contains it: `_blocks` holds the indices of
+        # Map each block to the block of the next coarser grid that contains it: `_blocks` holds the indices of
         # the coarser blocks in flat fields.
         blocks = [-(-(n - 2 * BORDER) // _RATIO) + 2 * BORDER for n in (height, width)]
         row, column = ((np.arange(n) - BORDER) // _RATIO + BORDER for n in (height, width))
         self._blocks = (row[:, None] * blocks[1] + column).ravel().astype(np.int32)
-        self._coarser = _coarse_level((_RATIO * sides[0], _RATIO * sides[1]), aspect, blocks[0], blocks[1], threads)
+        self._coarser = _coarse_grid((_RATIO * sides[0], _RATIO * sides[1]), aspect, blocks[0], blocks[1], threads)
 
     def prepare(self) -> None:
         places = self.places = np.flatnonzero(self.squares)
@@ -291,7 +291,7 @@ class _ManyBlocks:
 
 
 class _FewBlocks:
-    """Exact inverse of the matrix 1 + a K a (see the module's docstring) on a grid level with few blocks.
+    """Exact inverse of the matrix 1 + a K a (see the module's docstring) on a grid with few blocks.
 
     The class is used like _ManyBlocks. It computes a dense Cholesky factor.
     """
@@ -316,10 +316,10 @@ class _FewBlocks:
         return solution[0]
 
 
-def _coarse_level(
+def _coarse_grid(
     sides: tuple[int, int], aspect: float, height: int, width: int, threads: int
 ) -> _ManyBlocks | _FewBlocks:
-    """Return the solver for a coarse grid level: a _FewBlocks or a _ManyBlocks, depending on the number of blocks.
+    """Return the solver for a coarse grid: a _FewBlocks or a _ManyBlocks, depending on the number of blocks.
 
     sides : rows and columns of elements in a block
     aspect : dy/dx of the elements
@@ -333,7 +333,7 @@ def _coarse_level(
 
 @lru_cache(maxsize=2)
 def _dense_coupling(sides: tuple[int, int], aspect: float, height: int, width: int) -> Array:
-    """Return the influence coefficients K between all blocks of a grid level; see `_coupling`.
+    """Return the influence coefficients K between all blocks of a grid; see `_coupling`.
 
     height, width : rows and columns of blocks, border included
     """

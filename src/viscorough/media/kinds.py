@@ -297,10 +297,6 @@ class Springpot(Medium):
         with np.errstate(divide="ignore"):
             return self.modulus * checked_times(time) ** -self.exponent / gamma(1 - self.exponent)
 
-    def relaxation_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """Return the integral ∫ψ dt from `start` ≥ 0 to `end` ≥ `start`, to rounding."""
-        return self.modulus * _power_increment(start, end, 1 - self.exponent) / gamma(2 - self.exponent)
-
 
 # Media that have a name in MEDIUM.yaml: {value of the key `kind`: class}. The other keys of the file are the
 # parameters of the class.
@@ -326,14 +322,6 @@ def medium_of(medium: Medium | float) -> Medium:
     except ValueError as error:
         allowed = "a medium as viscorough.Maxwell, or the viscosity of a Newtonian one, a finite number above 0"
         raise ValueError(f"argument medium: {shown(medium)}; allowed: {allowed}") from error
-
-
-def _power_increment(start: ArrayLike, end: ArrayLike, power: float) -> Array:
-    """Return end^power − start^power for 0 ≤ start ≤ end and power > 0, to rounding also for close times."""
-    start, end = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        increment = start**power * np.expm1(power * np.log1p((end - start) / start))
-    return np.where(start > 0, increment, end**power)
 
 
 def _check_parameters(medium: Any, zero: str = "") -> None:

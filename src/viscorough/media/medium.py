@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from viscorough.basics.arrays import real_numbers
 from viscorough.basics.types import Array
-from viscorough.media.spectra import RelaxationSpectrum, RetardationSpectrum, Spectrum
+from viscorough.media.spectra import Spectrum
 
 if TYPE_CHECKING:
     from viscorough.media.load import Load
@@ -48,16 +48,6 @@ class Medium(ABC):
     array([0.0187, 0.0251])
     """
 
-    @property
-    def relaxation(self) -> RelaxationSpectrum | None:
-        """Return the spectrum of ψ, or None if the medium does not consist of springs and dashpots."""
-        return None
-
-    @property
-    def retardation(self) -> RetardationSpectrum | None:
-        """Return the spectrum of J, or None if the medium does not consist of springs and dashpots."""
-        return None
-
     @abstractmethod
     def creep_compliance(self, time: ArrayLike) -> Array:
         """Return the creep compliance J at times t ≥ 0, an array of any shape. At time 0 this is J(0+)."""
@@ -69,10 +59,6 @@ class Medium(ABC):
     @abstractmethod
     def relaxation_modulus(self, time: ArrayLike) -> Array:
         """Return ψ at times t ≥ 0, an array of any shape, without the pulse η δ(t) of a parallel dashpot."""
-
-    @abstractmethod
-    def relaxation_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """Return ∫ψ dt from `start` ≥ 0 to `end` ≥ `start`, without the pulse η δ(t) of a parallel dashpot."""
 
     @abstractmethod
     def spectrum(self, load: Load) -> Spectrum:

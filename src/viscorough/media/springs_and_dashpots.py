@@ -19,7 +19,7 @@ from viscorough.media.spectra import (
 
 
 class SpringsAndDashpots(Medium):
-    """Base class of media of springs and dashpots. They have the spectra `relaxation` and `retardation`; see Medium."""
+    """Base class of media of springs and dashpots. Their spectra are `relaxation` (ψ) and `retardation` (J)."""
 
     @property
     @abstractmethod
@@ -58,13 +58,6 @@ class SpringsAndDashpots(Medium):
         time = checked_times(time)
         _, relaxed, moduli, times = self.relaxation
         return relaxed + (moduli * np.exp(-np.divide.outer(time, times))).sum(axis=-1)
-
-    def relaxation_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """Return the integral ∫ψ dt from `start` ≥ 0 to `end` ≥ `start`, without the pulse η δ(t) of a dashpot."""
-        _, relaxed, moduli, times = self.relaxation
-        length = np.subtract(end, start)
-        decayed = -np.expm1(-np.divide.outer(length, times)) * np.exp(-np.divide.outer(start, times))
-        return relaxed * length + (moduli * times * decayed).sum(axis=-1)
 
     def _check_spectra(self) -> None:
         """Raise ValueError unless all numbers in both spectra, and the inverse of their times, are finite."""

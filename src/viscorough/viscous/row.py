@@ -190,24 +190,6 @@ def _meeting_of_tangents(curve: LoadingCurve, tangents: Mask) -> Array:
         return np.where(inside, curve.depth[:-1] + below_first / np.diff(stiffness), np.nan)
 
 
-def merged(gap: Array, stiffness: Array, depth: float, most: int) -> tuple[Array, Array]:
-    """Replace the springs with initial gaps up to `depth` by at most `most` springs; return their gaps and stiffnesses.
-
-    Springs with larger gaps are dropped, because they do not touch up to this depth. A fit to a record computes the
-    motion of the springs many times, which takes less time with fewer springs. Each new spring replaces some
-    neighbouring springs: it has their mean gap, weighted by stiffness, and the sum of their stiffnesses. The new
-    springs lie at about equal steps of the cube root of the gap.
-
-    gap, stiffness : initial gaps and stiffnesses of the independent springs of a RowOfSprings, by increasing gap
-    """
-    inside = gap < depth * (1 + 1e-9)
-    gap, stiffness = gap[inside], stiffness[inside]
-    group = np.floor((most - 1) * np.cbrt(gap / depth)).astype(int)
-    starts = np.flatnonzero(np.diff(group, prepend=-1))
-    total = np.add.reduceat(stiffness, starts)
-    return np.add.reduceat(stiffness * gap, starts) / total, total
-
-
 @njit
 def _below_all(depth, force):
     """Return the indices of the points that are corners of the greatest convex function below all points.

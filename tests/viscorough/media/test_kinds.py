@@ -4,7 +4,6 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from scipy.integrate import quad
 from scipy.special import beta
 
 from support.contract import refused
@@ -47,17 +46,6 @@ def test_creep_is_the_inverse_of_relaxation(name):
     assert (SPECTRA[name].retardation.compliances > 0).all()
 
 
-@pytest.mark.parametrize("name", SPRINGS_AND_DASHPOTS)
-def test_integral_over_time_agrees_with_quadrature(name):
-    """∫ψ dt is compared with quadrature, and an interval with the sum of its parts."""
-    medium = SPRINGS_AND_DASHPOTS[name]
-    integral, function = medium.relaxation_integral, medium.relaxation_modulus
-    for start, end in ((0.0, 0.2), (0.7, 3.0)):
-        assert integral(start, end) == pytest.approx(quad(function, start, end, epsabs=0)[0], rel=1e-12)
-    times = np.linspace(0, 8, 9)
-    assert integral(times[:-1], times[1:]).sum() == pytest.approx(integral(0.0, 8.0), rel=1e-13)
-
-
 def test_compliance_and_modulus_follow_closed_forms():
     t = TIMES
     np.testing.assert_allclose(Newtonian(3.0).creep_compliance(t), t / 3, rtol=1e-15)
@@ -77,7 +65,6 @@ def test_springpot_compliance_and_modulus_are_inverse(a):
     for t in (0.1, 3.0):
         product = medium.relaxation_modulus(t) * medium.creep_compliance(t)
         assert product * beta(1 - a, 1 + a) == pytest.approx(1, rel=1e-14)
-    assert medium.relaxation_integral(1, 2) == pytest.approx(quad(medium.relaxation_modulus, 1, 2)[0], rel=1e-10)
 
 
 @pytest.mark.parametrize(

@@ -22,6 +22,7 @@ from viscorough.basics.types import Array, Integers, Mask, Progress
 from viscorough.media.kinds import medium_of
 from viscorough.media.load import Load
 from viscorough.media.medium import Medium
+from viscorough.media.springs_and_dashpots import SpringsAndDashpots
 from viscorough.results.motion import Motion
 from viscorough.surfaces.indenter import Indenter, check_indenter
 from viscorough.viscous.integration.elements import MapElements, elements_of_map
@@ -37,7 +38,7 @@ _ROUNDING = 1e-12
 
 
 def integrate_steps(
-    indenter: Indenter, medium: Medium | float | str, load: Load, progress: Progress | None = None
+    indenter: Indenter, medium: Medium | float, load: Load, progress: Progress | None = None
 ) -> tuple[Motion, Array]:
     """Integrate the contact with one step in time from each sample of the load to the next; see `march`.
 
@@ -89,7 +90,7 @@ def checked_input(indenter: Indenter, medium: Any, load: Load) -> "tuple[Relaxat
     if not isinstance(load, Load):
         raise TypeError(f"march: load: {type(load).__name__}; a viscorough.Load is needed, before the medium")
     medium = medium_of(medium)
-    if medium.relaxation is None:
+    if not isinstance(medium, SpringsAndDashpots):
         raise ValueError(f"march: {type(medium).__name__}; allowed: media of springs and dashpots")
     return medium.relaxation, load.time, load.values
 

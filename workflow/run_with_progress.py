@@ -15,7 +15,8 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from viscorough.io.atomic import check_output, reason
+from viscorough.io.atomic import check_output
+from viscorough.io.refusals import reason
 from viscorough_study.run.stale_locks import REMOVED
 from viscorough_study.run.tables import read_table, split_table
 from viscorough_study.verdicts.claims import counted_verdicts

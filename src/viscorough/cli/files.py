@@ -74,8 +74,8 @@ def read_curve(path: Path) -> tuple[viscorough.LoadingCurve, str]:
     of a viscous half-space follow only from the elastic curve of an incompressible half-space.
     """
     from viscorough.io import netcdf
-    from viscorough.io.atomic import path_named
     from viscorough.io.curves import curve_from_content, length_unit_of
+    from viscorough.io.refusals import path_named
 
     check_opens(path)
     content = netcdf.read(path)

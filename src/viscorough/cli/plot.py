@@ -29,8 +29,8 @@ def plot(heights: surface_options.HeightsFile, output: Path) -> None:
         raise click.ClickException('matplotlib is not installed; pip install "viscorough[plot]" installs it') from error
 
     from viscorough.io import netcdf
-    from viscorough.io.atomic import path_named
     from viscorough.io.heights import surface_to_content
+    from viscorough.io.refusals import path_named
 
     file = heights.path
     files.check_output(output, results=file)

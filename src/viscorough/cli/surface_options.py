@@ -134,7 +134,7 @@ _VALUES: dict[str, Callable[[str], Any]] = {
 
 def _converted(texts: dict[str, Any]) -> dict[str, Any]:
     """Convert the options of a HeightsFile to arguments of read_heights. Raises ValueError, with the option's name."""
-    from viscorough.io.atomic import path_named
+    from viscorough.io.refusals import path_named
 
     arguments = dict(texts)
     for name in texts.keys() & _VALUES.keys():

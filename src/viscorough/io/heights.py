@@ -13,9 +13,9 @@ from viscorough.basics import units
 from viscorough.basics.errors import AccuracyWarning
 from viscorough.basics.types import FilePath
 from viscorough.io import matrices, netcdf
-from viscorough.io.atomic import path_named, reading
 from viscorough.io.instruments import read_instrument
 from viscorough.io.netcdf_heights import read_netcdf
+from viscorough.io.refusals import path_named, reading
 from viscorough.io.scan import Distance, Scan, in_metres, to_indenter
 from viscorough.results.contact_maps import Contact
 from viscorough.surfaces.indenter import Indenter

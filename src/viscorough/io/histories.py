@@ -16,8 +16,8 @@ from viscorough.basics import units
 from viscorough.basics.arrays import whole_number
 from viscorough.basics.errors import AccuracyWarning
 from viscorough.basics.types import Array, FilePath
-from viscorough.io.atomic import Refused, path_named, reading
 from viscorough.io.matrices import delimiter_of, is_text, lines_of, number_of, refuse_decimal_commas
+from viscorough.io.refusals import Refused, path_named, reading
 from viscorough.media.load import Load
 
 # Negative forces down to this share of the largest force count as noise of the force sensor before or after contact.

@@ -13,7 +13,7 @@ import numpy as np
 from viscorough.basics import units
 from viscorough.basics.errors import AccuracyWarning
 from viscorough.basics.types import FilePath
-from viscorough.io.atomic import Refused
+from viscorough.io.refusals import Refused
 from viscorough.io.scan import Scan
 
 # Formats that SurfaceTopography guesses, and formats of plain arrays, of which it does not know the order of the axes.

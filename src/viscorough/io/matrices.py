@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from viscorough.basics.types import Array
-from viscorough.io.atomic import Refused
+from viscorough.io.refusals import Refused
 from viscorough.io.scan import Scan
 
 # Control characters that occur in no text file. \x1a is left out, since it ends text files of DOS.

@@ -18,7 +18,7 @@ import yaml
 from viscorough.basics import units
 from viscorough.basics.elasticity import INCOMPRESSIBLE, shear_over_incompressible, young_over_shear
 from viscorough.basics.types import FilePath
-from viscorough.io.atomic import path_named, reading
+from viscorough.io.refusals import path_named, reading
 from viscorough.io.unique_keys import UniqueKeys
 from viscorough.media import kinds
 from viscorough.media.medium import Medium

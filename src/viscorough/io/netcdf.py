@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 
 from viscorough import __version__
 from viscorough.basics.types import FilePath
-from viscorough.io.atomic import Refused, atomic_write, reading
+from viscorough.io.atomic import atomic_write
 from viscorough.io.digest import add_digest, check_digest
+from viscorough.io.refusals import Refused, reading
 
 Variables = Mapping[str, tuple[tuple[str, ...], Any, dict[str, Any]]]
 Content = tuple[dict[str, tuple[tuple[str, ...], Any, dict[str, Any]]], dict[str, Any]]

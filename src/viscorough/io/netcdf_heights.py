@@ -8,7 +8,7 @@ import numpy as np
 from viscorough.basics import units
 from viscorough.basics.types import Array, FilePath
 from viscorough.io import netcdf
-from viscorough.io.atomic import Refused
+from viscorough.io.refusals import Refused
 from viscorough.io.scan import NOT_STATED, Scan
 
 # The netCDF4 library gives dimensions this name if an HDF5 file names none, as files of other programs than NetCDF.

@@ -4,11 +4,11 @@ from typing import Any
 
 from viscorough.basics.types import FilePath
 from viscorough.io import netcdf, tables
-from viscorough.io.atomic import path_named
 from viscorough.io.contact_files import contacts_to_content
 from viscorough.io.curves import curve_from_content, curve_to_content
 from viscorough.io.heights import surface_to_content
 from viscorough.io.motion_files import estimate_to_content, motion_to_content
+from viscorough.io.refusals import path_named
 from viscorough.io.suffixes import RESULTS, check_suffix
 from viscorough.law.estimate import Estimate
 from viscorough.results.contact_maps import Contact

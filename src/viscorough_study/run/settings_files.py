@@ -5,7 +5,7 @@ from pathlib import Path
 
 import yaml
 
-from viscorough.io.atomic import reading
+from viscorough.io.refusals import reading
 from viscorough.io.unique_keys import UniqueKeys
 
 

@@ -12,7 +12,8 @@ from pathlib import Path
 
 import pandas as pd
 
-from viscorough.io.atomic import atomic_write, reading
+from viscorough.io.atomic import atomic_write
+from viscorough.io.refusals import reading
 from viscorough_study.run.made_with import made_with
 
 DIGEST = "sha256"  # name of the digest in the first line

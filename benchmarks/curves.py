@@ -2,7 +2,7 @@
 
     python benchmarks/curves.py --output results/benchmarks.json
 
-The file has one key for each function below: over_operator, line, rectangles, large_map, curve.
+The file has the keys over_operator, line, rectangles, large_map and curve.
 Times are medians of repeats in one run. Repeats of compared computations are interleaved. `make bench` runs it.
 """
 

@@ -23,7 +23,6 @@ from viscorough import Indenter, __version__, indent, self_affine_disc
 from viscorough_study.performance import timing
 from viscorough_study.run.seeds import realization_seed, solver_race_key
 
-SOLVERS = ("ASPHER", "ASPHER nested", "ContactMechanics", "SlipPY", "Tamaas")
 # Exponents of the discs, residual to be reached, root seed, pairs of runs of the path and another solver.
 HURST, RESIDUAL, SEED, PAIRS = (0.4, 0.8), 1e-6, 2013, 5
 LONGEST = 60.0  # seconds after which a run of another solver is abandoned
@@ -210,7 +209,7 @@ def _loosest_tolerance(ask, required):
 @click.command(help=__doc__.splitlines()[0])
 @output_option
 def main(output):
-    solvers, tables = other_solvers.installed(SOLVERS), []
+    solvers, tables = other_solvers.installed(other_solvers.ADAPTERS), []
     for number, (name, (elements, levels, ends, threads)) in enumerate(TASKS.items()):
         for hurst in HURST:
             seed = realization_seed(SEED, *solver_race_key(number, hurst))

@@ -149,22 +149,26 @@ def _error_in(log):
     return match[1] if match else "a job was ended, or failed before it wrote its log"
 
 
-def summary(seconds, results=Path("results")):
-    """Return the last lines of a run: verdicts on the paper's own claims, its time [s], and the page."""
+def summary(seconds, command, results=Path("results")):
+    """Return the last lines of a run: verdicts on the paper's own claims, its time [s], and its page.
+
+    command : list of the words of the command, the last of which are targets
+    """
+    time_taken = f"It took {seconds:.0f} seconds" if seconds < 100 else f"It took {seconds / 60:.1f} minutes"
+    if "all" not in command:
+        return [time_taken, f"Open {results / 'beyond.html'} in a browser"]
     table = results / "tables/claims.csv"
     claims = counted_verdicts(read_table(table), "own")
     trial = "; trial scale, on which verdicts mean nothing" * split_table(table)[0]["trial"]
     verdicts = ", ".join(f"{number} {verdict}" for verdict, number in claims)
-    return [
-        f"{sum(number for _, number in claims)} claims of the paper: {verdicts}{trial}",
-        f"It took {seconds:.0f} seconds" if seconds < 100 else f"It took {seconds / 60:.1f} minutes",
-        f"Open {results / 'index.html'} in a browser",
-    ]
+    counted = f"{sum(number for _, number in claims)} claims of the paper: {verdicts}{trial}"
+    return [counted, time_taken, f"Open {results / 'index.html'} in a browser"]
 
 
 if __name__ == "__main__":
     start = time.monotonic()
-    code = run(sys.argv[sys.argv.index("--") + 1 :])
-    if not code and Path("results/index.html").is_file():
-        print("\n".join(summary(time.monotonic() - start)))
+    words = sys.argv[sys.argv.index("--") + 1 :]
+    code = run(words)
+    if not code:
+        print("\n".join(summary(time.monotonic() - start, words)))
     sys.exit(code)

@@ -47,7 +47,7 @@ def copy_project(folder):
     for name in ("workflow", "config", "profiles", "resources"):
         shutil.copytree(ROOT / name, folder / name)
     shutil.copytree(ROOT / "docs/results", folder / "docs/results")
-    for name in ("Snakefile", "CITATION.cff", "docs/claims.csv", "docs/rules.png"):  # the page needs the last two
+    for name in ("Snakefile", "CITATION.cff", "docs/rules.png"):  # the page shows the last one
         shutil.copy(ROOT / name, folder / name)
     return folder
 

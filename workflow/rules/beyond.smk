@@ -1,5 +1,5 @@
-# Rules of `snakemake beyond`: what goes beyond the paper. No rule of the default run uses their results; the page of the
-# default run shows published pictures.
+# Rules of what goes beyond the paper: `snakemake beyond` and `snakemake sensitivities`. No rule of the default run uses
+# their results; the page of the default run shows published pictures.
 
 
 rule compare_periodic:

@@ -103,7 +103,7 @@ rule aggregate_curves:
 
 
 rule curves:
-    """The loading curves of the discs and lines of Figures 2 to 4, and of their variants."""
+    """The loading curves of the discs and lines of Figures 2 to 4."""
     input:
         samples.pool_curves(SAMPLES, "discs"),
         samples.pool_curves(SAMPLES, "lines"),

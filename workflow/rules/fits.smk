@@ -73,7 +73,6 @@ rule fit_local_slope:
     params:
         controls=["roll_off"],
         region=without("scaling", "stiffness_range", "resamples"),
-        half_width=config["scaling"]["slope_half_width"],
         resamples=config["scaling"]["resamples"],
         seed=config["seed"],
         source=digest("fit_local_slope"),

@@ -28,12 +28,13 @@ rule judge_claims:
     params:
         numbers=paper("numbers"),
         fine_grids=judged_rows(PROJECT),
+        reduction=read_records(PROJECT / "resources/published/reduction.csv"),
         conventions=SHOWN,
         across=config["discs"]["elements"],
         limits=without("scaling", "stiffness_range", "resamples"),  # limits of region (b)
         resamples=config["scaling"]["resamples"],
         seed=config["seed"],
-        source=[digest("judge_claims"), *text_digests([PROJECT / "resources/published/reduction.csv"])],
+        source=digest("judge_claims"),
     message:
         "Verdicts on the claims of the paper"
     script:

@@ -13,19 +13,18 @@ from viscorough_study.verdicts.claims import COLUMNS, judge, scale_attributes
 from viscorough_study.verdicts.document import document
 from viscorough_study.verdicts.evidence import Evidence
 
-# Published results that the default run does not repeat. Snakemake lets __file__ be the path of this script.
-REDUCTION = Path(__file__).resolve().parents[2] / "resources/published/reduction.csv"
 
-
-def main(discs, tables, csv, verdicts, *, fine_grids, **settings):
+def main(discs, tables, csv, verdicts, *, fine_grids, reduction, **settings):
     """Judge the claims by the loading curves of discs and by tables, and write the verdicts.
 
     discs : file with the loading curves of discs of all groups; tables : CSV files, named after the tables
     csv, verdicts : files to write, the table and a page in Markdown
-    fine_grids : published rows from fits.fine_sentence.judged_rows; settings : further fields of `Evidence`
+    fine_grids, reduction : published rows that the default run does not make again, [{column: value}]: the limits of β
+        (fits.fine_sentence.judged_rows), and the comparison of lines with discs (`compare_reduction`)
+    settings : further fields of `Evidence`
     """
     made = {Path(path).stem: read_table(path) for path in tables}
-    made |= {"fine_exponents": pd.DataFrame(fine_grids), "reduction": pd.read_csv(REDUCTION)}
+    made |= {"fine_exponents": pd.DataFrame(fine_grids), "reduction": pd.DataFrame(reduction)}
     evidence = Evidence(discs=read_dataset(discs), tables=made, **settings)
     table = judge(evidence)
     attributes = scale_attributes(evidence)

@@ -4,7 +4,6 @@ import numpy as np
 
 from viscorough.reference import exponent_beta
 from viscorough_study.figures import style
-from viscorough_study.run.samples import medium_label
 
 # The axis of velocities begins at this share of the largest velocity. Otherwise it would show many useless decades,
 # because velocities in a solid decay exponentially.
@@ -24,14 +23,14 @@ def plot_media(table):
     figure, panels = style.new_panels(len(names) + 1, 2, height=55, rest=15)
     for axes, name in zip(panels[:-1], names, strict=True):
         _plot_velocity(axes, table[table["medium"] == name], looks)
-        axes.set_title(medium_label(name))
+        axes.set_title(_label(name))
     collapsed, markers = panels[-1], dict(zip(names, style.SERIES_MARKERS, strict=False))
     for (name, hurst), part in table.groupby(["medium", "hurst"], sort=False):
         thinned = part.iloc[:: max(1, len(part) // 20)]
         collapsed.plot(thinned["x"], thinned["depth"], color=looks[hurst]["color"], marker=markers[name], **HOLLOW)
     collapsed.set(xscale="log", yscale="log", xlabel="$FJ/(4hL)$", ylabel="depth $u/h$", title="all media")
     grey = {"color": style.GREY, **HOLLOW}
-    handles = [style.handle(medium_label(name), marker=marker, **grey) for name, marker in markers.items()]
+    handles = [style.handle(_label(name), marker=marker, **grey) for name, marker in markers.items()]
     collapsed.legend(handles=handles, loc="upper left")
     figure.align_ylabels()
     guides = {"slope 1": ":", "slope $H/(1+H)$, Eq. 10": "--"}
@@ -62,3 +61,8 @@ def _plot_velocity(axes, table, looks):
             guide = velocity[middle] * (span / time[middle]) ** exponent_beta(hurst)
             axes.plot(span, guide, color=color, linestyle="--", linewidth=0.6)
     axes.set_ylim(max(bottom, _LOWEST * table["velocity"].max()), top)
+
+
+def _label(name):
+    """Return the name of a medium in the settings as text for readers, such as "Standard linear solid"."""
+    return name.replace("_", " ").capitalize().replace("Kelvin voigt", "Kelvin-Voigt")

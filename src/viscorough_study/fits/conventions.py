@@ -48,11 +48,11 @@ def interval_columns(gamma):
 
     gamma : "with" or "without", for ζ of the law with or without the factor 1/Γ(2 − α)
     """
-    reading = "_with_gamma" * (gamma == "with")
-    return f"zeta_low{reading}", f"zeta_high{reading}"
+    suffix = "_with_gamma" * (gamma == "with")
+    return f"zeta_low{suffix}", f"zeta_high{suffix}"
 
 
-def in_reading(fits, gamma):
+def convert_zeta(fits, gamma):
     """Convert ζ and its interval to the law with or without the factor 1/Γ(2 − α), in all rows of a table of fits.
 
     fits : pandas.DataFrame with the columns of viscorough_study.fits.fit_table
@@ -64,9 +64,7 @@ def in_reading(fits, gamma):
     low, high = interval_columns(gamma)
     zeta = fits["zeta"] * zeta_scale(fits["beta"], gamma)
     scale = zeta_scale(reference.exponent_beta(fits["hurst"]), gamma)
-    # Tables of grids that were published before these columns were added lack them.
-    names = [name for name in ("zeta_fixed", "zeta_fixed_low", "zeta_fixed_high") if name in fits]
-    fixed = {name: fits[name] * scale for name in names}
+    fixed = {name: fits[name] * scale for name in ("zeta_fixed", "zeta_fixed_low", "zeta_fixed_high")}
     converted = fits.assign(zeta=zeta, zeta_low=fits[low], zeta_high=fits[high], gamma=gamma, **fixed)
     return converted.drop(columns=list(interval_columns("with")))
 
@@ -78,14 +76,14 @@ def reading_of(group, rms_convention):
 
 
 def select(table, values):
-    """Select rows from a table of fits, sort them by ascending H, and convert ζ by `in_reading`.
+    """Select rows from a table of fits, sort them by ascending H, and convert ζ by `convert_zeta`.
 
-    values : {column: value that a row must have}, and {"gamma": argument of `in_reading`}
+    values : {column: value that a row must have}, and {"gamma": argument of `convert_zeta`}
     """
     for column, value in values.items():
         if column != "gamma":
             table = table[table[column] == value]
-    return in_reading(table, values["gamma"]).sort_values("hurst", kind="stable")
+    return convert_zeta(table, values["gamma"]).sort_values("hurst", kind="stable")
 
 
 def fits(table, conventions, **values):

@@ -37,22 +37,22 @@ COLUMNS = {
 FEWEST_WINDOWS = 2
 
 
-def local_slope_table(discs, *, groups, region, half_width, resamples, seed):
+def local_slope_table(discs, *, groups, region, resamples, seed):
     """Measure the spread of the local slope within region (b); return a pandas.DataFrame with the columns `COLUMNS`.
 
     discs : pool of loading curves (viscorough_study.ensembles.pool)
     groups : {group of discs: definition of the rms height h}; groups that the pool does not have are omitted
-    region : limits of region (b), arguments of viscorough_study.fits.power_law.find_region
-    half_width : a local slope is fitted to the points within ± half_width decades of X
+    region : limits of region (b), arguments of viscorough_study.fits.power_law.find_region. Its `slope_half_width`, in
+        decades of X, is also half the width over which local slopes are fitted
     resamples, seed : number of bootstrap samples, and root of their seeds
     """
-    rows = []
+    rows, half_width = [], region["slope_half_width"] * np.log(10)
     for group, rms_convention in groups.items():
         pooled = ensembles(discs, "group", "hurst", rms_convention=rms_convention)
         for hurst, ensemble in sorted((h, ensemble) for (name, h), ensemble in pooled.items() if name == group):
             logging.info("%s, H = %g", group, hurst)
             random = np.random.default_rng(realization_seed(seed, *local_slope_key(hurst, group)))
-            options = {"half_width": half_width * np.log(10), "resamples": resamples, "random": random}
+            options = {"half_width": half_width, "resamples": resamples, "random": random}
             measured = straightness(ensemble, find_region(ensemble, **region), **options)
             rows.append({"group": group, "hurst": hurst, **measured})
     return pd.DataFrame(rows, columns=list(COLUMNS))

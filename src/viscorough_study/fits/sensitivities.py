@@ -9,7 +9,7 @@ import pandas as pd
 
 from viscorough import reference
 from viscorough_study.ensembles.pool import ensembles
-from viscorough_study.fits.conventions import in_reading
+from viscorough_study.fits.conventions import convert_zeta
 from viscorough_study.fits.fit_table import fit_rows
 from viscorough_study.fits.intervals import described
 
@@ -44,6 +44,6 @@ def sensitivities(*pools, **fit):
         for (group, _), ensemble in ensembles(pool, "group", "hurst").items():
             if group not in CONTROLS:
                 rows += fit_rows(ensemble, source="discs", group=group, **fit)
-    table = in_reading(pd.DataFrame(rows), "with").rename(columns={"group": "surfaces"})
+    table = convert_zeta(pd.DataFrame(rows), "with").rename(columns={"group": "surfaces"})
     ratios = {ratio: table[zeta] / reference.zeta_viscous(table["hurst"]) for zeta, ratio in _RATIO.items()}
     return table.assign(**ratios, residual=table["residual_fixed"])[list(COLUMNS)]

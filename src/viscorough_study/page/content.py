@@ -41,7 +41,7 @@ def claims(results):
 
 def mark(word):
     """Return the class of a verdict in the style sheet."""
-    return MARKS.get(word.partition(" at ")[0].partition(",")[0], "open")
+    return MARKS.get(word, "open")
 
 
 def findings(shown):

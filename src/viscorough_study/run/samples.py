@@ -14,7 +14,8 @@ with several ensembles:
 - In sequence: a batch has realizations of one ensemble and then of the next. Discs on coarse grids are batched in this
   way, so that a job can hold many small discs.
 
-Names of samples are parts of file names, which contain no floating-point numbers. Names of ensembles are in the tables.
+Names of samples are parts of file names, which contain no floating-point numbers. Names of ensembles are in the tables
+of results.
 """
 
 import itertools
@@ -270,31 +271,31 @@ def _in_batch(ensemble, numbers):
     return {name: ensemble[name] for name in kept if name in ensemble} | {"numbers": numbers}
 
 
-def pool_batches(tables, pool):
+def pool_batches(samples, pool):
     """Return [(name of the sample, name of the batch)] for all batches from which a pool of curves is made.
 
-    They are in the order of the table of descriptions.
+    They are in the order of the descriptions.
 
-    tables : {kind of surface: {name of a sample: description}}
+    samples : {kind of surface: {name of a sample: description}}
     """
-    samples = tables[POOL_KINDS[pool]]
-    return [(name, batch) for name, sample in samples.items() if sample["pool"] == pool for batch in batches(sample)]
+    own = samples[POOL_KINDS[pool]]
+    return [(name, batch) for name, sample in own.items() if sample["pool"] == pool for batch in batches(sample)]
 
 
-def pool_curves(tables, pool):
+def pool_curves(samples, pool):
     """Return the names of the files with the loading curves of a pool.
 
-    tables : {kind of surface: {name of a sample: description}}
+    samples : {kind of surface: {name of a sample: description}}
     """
-    return [f"results/curves/{POOL_KINDS[pool]}/{sample}/{batch}.nc" for sample, batch in pool_batches(tables, pool)]
+    return [f"results/curves/{POOL_KINDS[pool]}/{sample}/{batch}.nc" for sample, batch in pool_batches(samples, pool)]
 
 
-def pool_groups(tables, pool):
+def pool_groups(samples, pool):
     """Return a list with the group, such as "base", of the surfaces in each batch of a pool of curves.
 
-    tables : {kind of surface: {name of a sample: description}}
+    samples : {kind of surface: {name of a sample: description}}
     """
-    return [tables[POOL_KINDS[pool]][sample]["group"] for sample, _ in pool_batches(tables, pool)]
+    return [samples[POOL_KINDS[pool]][sample]["group"] for sample, _ in pool_batches(samples, pool)]
 
 
 def combination_curves(discs):
@@ -357,20 +358,15 @@ def line_memory(sample):
     return round(BASE_MEMORY + 40 * max(ensemble["points"] for ensemble in sample["ensembles"]) / 1e6)
 
 
-def pool_memory(tables, pool, curves):
+def pool_memory(samples, pool, curves):
     """Return the memory [MB] of a job that pools curves: for two copies of all realizations on common abscissae.
 
-    tables : {kind of surface: {name of a sample: description}}
+    samples : {kind of surface: {name of a sample: description}}
     curves : section `curves` of the settings
     """
-    samples = [sample for sample in tables[POOL_KINDS[pool]].values() if sample["pool"] == pool]
-    members = [member for sample in samples for member in sample.get("ensembles", [sample])]
+    own = [sample for sample in samples[POOL_KINDS[pool]].values() if sample["pool"] == pool]
+    members = [member for sample in own for member in sample.get("ensembles", [sample])]
     realizations = sum(member["realizations"] for member in members)
     abscissae = 1 + curves["per_decade"] * math.log10(curves["until_x"] / curves["x_low"])
     variables = 2 * len(POOLS[pool])
     return round(BASE_MEMORY + 2 * 8 * variables * realizations * abscissae / 1e6)
-
-
-def medium_label(name):
-    """Return the name of a medium in the settings as text for readers, such as "Standard linear solid"."""
-    return name.replace("_", " ").capitalize().replace("Kelvin voigt", "Kelvin-Voigt")

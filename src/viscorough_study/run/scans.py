@@ -26,9 +26,10 @@ def scans(entries, curves):
     """
     ends = {"tolerance": curves["measured_tolerance"], "until_x": curves["until_x"]}
     shared = {"pool": "measured", "realizations": 1, "batch": 1, "indentation": ends}
-    shared |= {name: field.default for name, field in ScanGroup.model_fields.items() if not field.is_required()}
     result = {}
     for entry in entries:
+        # the settings that are given, which the preparation consists of, and the default values of the others
+        complete = {"preparation": {}} | ScanGroup(**entry).model_dump(exclude={"preparation"}) | entry
         for pattern in entry["files"]:
             matching = map(Path, glob(pattern, recursive=True, include_hidden=True))
             files = sorted(str(path) for path in matching if path.is_file())
@@ -41,7 +42,7 @@ def scans(entries, curves):
                 if name in result and result[name]["file"] != file:
                     both = f"{result[name]['file']} and {file}"
                     raise ValueError(f"measured: {both} have the same name {name}; allowed: different names")
-                result[name] = shared | entry | _content(file) | {"group": entry["name"], "file": file}
+                result[name] = shared | complete | _content(file) | {"group": entry["name"], "file": file}
     return result
 
 

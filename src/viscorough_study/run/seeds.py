@@ -8,8 +8,8 @@ result: do not change them, and give a new stream a new number. The numbers 7, 9
 gone.
 
 Two parts have no stream. The bootstrap of the fits uses the root without a spawn key. The spawn key of a random
-indenter in the stability campaign is only its number (`random_indenter_key`), and the campaign has a
-separate root.
+indenter in the campaign of random contacts is only its number (`random_indenter_key`). It may be the key of another
+part, since the results of the campaign are not combined with those of the study.
 """
 
 import zlib

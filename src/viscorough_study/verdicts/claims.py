@@ -154,8 +154,6 @@ def is_trial(elements_across, paper_elements_across):
 def scale_attributes(evidence):
     """Return attributes for the table of verdicts that state the size of the study.
 
-    The numbers are taken from the results, not from the settings:
-
     elements_across : number of elements across the discs
     paper_elements_across : number of elements across the discs of the paper
     realizations : smallest number of discs per Hurst exponent

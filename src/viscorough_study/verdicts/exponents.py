@@ -3,6 +3,7 @@
 import numpy as np
 
 from viscorough import reference
+from viscorough_study.fits.fine_sentence import TOLERANCE
 from viscorough_study.fits.intervals import UNDEFINED, interval
 from viscorough_study.verdicts.claim import claim
 from viscorough_study.verdicts.evidence import hurst_name, judged
@@ -69,7 +70,7 @@ def follows_law(evidence, tolerance, fits):
     quantity="middle and ends of a bracket of the limit of β for an infinitely fine grid, in the decade of the "
     "smallest X; published results of `make fine-grids`",
     criterion="the whole bracket lies within the tolerance of H/(1 + H), at every H from 0.4 on",
-    tolerance=0.03,
+    tolerance=TOLERANCE,
     reason="the tolerance of β on the paper's grid. The criterion was fixed before the surfaces that decide it were "
     "computed",
     remark="The upper end of the bracket is that of β on the finest grid, and the lower end allows for all waves "

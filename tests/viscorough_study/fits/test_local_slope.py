@@ -60,7 +60,6 @@ def test_table_has_a_row_for_each_group_of_the_pool():
         evidence().discs,
         groups={"base": "disc", "longer_period": "square", "roll_off": "disc"},
         region=LIMITS,
-        half_width=0.25,
         resamples=20,
         seed=1,
     )

@@ -21,12 +21,13 @@ KEYS = {
     seeds.periodic_key(0.4, 3): (15, 400000, 3),
     seeds.law_disc_key(0.4, 65, 3): (16, 400000, 65, 3),
     seeds.one_surface_key(0.4, 3): (18, 400000, 3),
+    seeds.nested_disc_key(0.4, 4097): (19, 400000, 4097),
 }
 
 
 def test_published_keys_do_not_change():
     assert all(key == published for key, published in KEYS.items())
-    assert [key[0] for key in KEYS] == [number for number in range(1, 19) if number not in (7, 9, 13, 17)], (
+    assert [key[0] for key in KEYS] == [number for number in range(1, 20) if number not in (7, 9, 13, 17)], (
         "each has its own number"
     )
     assert {type(number) for key in KEYS for number in key} == {int}

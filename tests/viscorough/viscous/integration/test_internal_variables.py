@@ -1,15 +1,17 @@
 """Direct integration with internal variables, against closed forms and the correspondence, which it never uses."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from scipy.optimize import brentq
 
 from support.contract import refused
-from support.marching import stepped
 from support.media import SPRINGS_AND_DASHPOTS as MEDIA
 from viscorough import Indenter, Load, indent, kinetics, march, self_affine_disc
 from viscorough.basics.errors import ConvergenceError
 from viscorough.media.kinds import KelvinVoigt, Maxwell, Newtonian, Springpot
+from viscorough.viscous.integration.internal_variables import integrate_steps
 
 DISC = Indenter(self_affine_disc(0.7, 65, seed=3).heights, 0.01, 0.02)
 END = 2.0
@@ -19,6 +21,13 @@ END = 2.0
 def curve():
     """Return a curve whose levels are all contact events, so it is exact in between."""
     return indent(DISC, until_fraction=0.05, tolerance=1e-10)
+
+
+def stepped(indenter, medium, times, **load):
+    """Return the motion by implicit steps under a `force` or at a `depth`, with `contact_count` and `pressure`."""
+    motion, pressure = integrate_steps(indenter, medium, Load(times, **load))
+    count = np.rint(motion.contact_fraction * indenter.elements).astype(int)
+    return SimpleNamespace(**vars(motion), contact_count=count, pressure=pressure)
 
 
 def largest_force(curve, medium, share=0.8):

@@ -3,8 +3,8 @@
     python benchmarks/second_solver.py --output results/tables/second_solver.csv
 
 ContactMechanics (peers/) shares no code with this package. For each Hurst exponent, both solvers solve discs of
-reading A at the same depths, which reach the abscissae X = F/(4GhL) of this package's curve. The discs are made as those
-of the default run, with other seeds. Stiffnesses are difference quotients k = ΔF/Δu between neighbouring depths, the
+reading A at the same depths, which reach the abscissae X = F/(4GhL) of this package's curve. The discs are made as
+those of the default run, with other seeds. Stiffnesses are difference quotients k = ΔF/Δu of neighbouring depths, the
 same for both solvers. β and ζ of vt/h = X^β/ζ follow from a straight line through ln(vt/h) = ln(X/κ), κ = k/(4GL), over
 ln X at all quotients of all discs. The table has the columns of COLUMNS. `make speed` runs the script;
 without the environment of `make peers` it writes nothing.

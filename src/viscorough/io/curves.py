@@ -1,7 +1,6 @@
 """Convert loading curves to the content of NetCDF files and back, for one curve or a stack of curves."""
 
 import contextlib
-import dataclasses
 from collections.abc import Sequence
 from typing import Any
 
@@ -51,10 +50,8 @@ PER_CURVE = {
     "tolerance": (float, "relative accuracy asked for"),
     "method": (str, "how the curve was obtained"),
 }
-# Global attributes that are stored only if they differ from the defaults of LoadingCurve: {name: type}.
-OPTIONAL: dict[str, type] = {"mean_grid_error": float, "mean_area_change": float}
-# Least allowed values of attributes in OPTIONAL; the least allowed value of all other attributes is 0.
-OPTIONAL_LEAST = {"mean_area_change": -1.0}
+# Global attributes of curves with estimated grid errors; both are numbers.
+_MEANS = ("mean_grid_error", "mean_area_change")
 
 
 def curve_to_content(curve: LoadingCurve, shear_modulus: float | None = None) -> Content:
@@ -72,8 +69,7 @@ def curve_to_content(curve: LoadingCurve, shear_modulus: float | None = None) ->
         values["normal_stiffness"] = shear_modulus * curve.stiffness
     attributes = {"title": "Loading curve of a rigid indenter", "comment": COMMENT}
     attributes |= {name: getattr(curve, name) for name in PER_CURVE}
-    defaults = {field.name: field.default for field in dataclasses.fields(curve)}
-    attributes |= {name: getattr(curve, name) for name in OPTIONAL if getattr(curve, name) != defaults[name]}
+    attributes |= {name: getattr(curve, name) for name in _MEANS if getattr(curve, name) is not None}
     quantities = OVER_LEVELS | ABOUT_GRID | WITH_MODULUS
     return {name: (("level",), each, described(*quantities[name], unit)) for name, each in values.items()}, attributes
 
@@ -106,9 +102,9 @@ def curve_from_content(content: Content) -> LoadingCurve:
         if name not in attributes:
             raise ValueError(f"no attribute {name}; {_NEEDED}")
         fields[name] = _converted(name, attributes[name], convert)
-    for name, convert in OPTIONAL.items():
+    for name in _MEANS:
         if name in attributes:
-            fields[name] = _converted(name, attributes[name], convert, least=OPTIONAL_LEAST.get(name, 0.0))
+            fields[name] = _converted(name, attributes[name], float)
     # Another program may have stored counts as floats.
     with np.errstate(invalid="ignore"):
         count = fields["contact_count"].astype(int)
@@ -175,17 +171,16 @@ def _check_contact(curve: LoadingCurve) -> None:
             raise ValueError(f"{needed} (level {np.argmax(where)}); {_NEEDED}")
 
 
-def _converted(name: str, value: Any, kind: type, least: float = 0) -> Any:
+def _converted(name: str, value: Any, kind: type) -> Any:
     """Convert the value of a global attribute to int, float or str. Raises ValueError for other values.
 
     kind : int, float or str
-    least : least allowed number
     """
     with contextlib.suppress(TypeError, ValueError, OverflowError):
         converted = kind(value)
-        if isinstance(value, str) if kind is str else np.ndim(value) == 0 and converted == value and value >= least:
+        if isinstance(value, str) if kind is str else np.ndim(value) == 0 and converted == value:
             return converted
-    needed = {int: f"a whole number from {least:g} on", float: f"a number from {least:g} on", str: "text"}[kind]
+    needed = {int: "a whole number", float: "a number", str: "text"}[kind]
     raise ValueError(f"attribute {name} is {value!r}; {needed} is needed")
 
 

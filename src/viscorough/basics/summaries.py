@@ -27,18 +27,20 @@ class InNotebooks:
         return f"<table><caption>{html.escape(title)}</caption>{table}</table>{image}"
 
 
-# Units in which lengths in metres are shown: the first one that is not larger than the length.
-LENGTHS = [("m", 1.0), ("mm", 1e-3), ("um", 1e-6), ("nm", 1e-9)]
+# Units of length in which results are shown, the largest first: {spelling: metres}.
+METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
 
 
 def shown_unit(largest: float, unit: str) -> tuple[str, float]:
-    """Return the unit in which a quantity is shown, and its size in `unit`, which a prefix replaces if it is in metres.
+    """Return the unit in which a quantity is shown, and its size in `unit`.
 
-    largest : largest value of the quantity; unit : its unit, of which m, m2 and m s-1 may get a prefix
+    A unit of metres is replaced by the first unit of METRES that is not larger than the quantity, or by its power.
+
+    largest : largest value of the quantity; unit : its unit, of which m, m2 and m s-1 may be replaced
     """
     if unit not in ("m", "m2", "m s-1"):
         return unit, 1.0
-    sizes = [(f"{name}{unit[1:]}", size**2 if unit == "m2" else size) for name, size in LENGTHS]
+    sizes = [(f"{name}{unit[1:]}", size**2 if unit == "m2" else size) for name, size in METRES.items()]
     return next((each for each in sizes if abs(largest) >= each[1]), sizes[-1])
 
 

@@ -1,9 +1,9 @@
 """Read and convert units as users and files write them: "um", "1e-6 m", "µm", "micron", "Pa s", "N s m-2".
 
 Results spell units like UDUNITS, the units library of the CF conventions: a number after a unit is its exponent, as in
-m2. The library pint converts units. Since the import of pint takes a second, common units are converted by a short
-table. The unit "1" means that the unit of length is not known. Only the command line and the readers and writers of
-files use this module: inside the library, numbers are in SI units, or in consistent units that are not known.
+m2. The library pint converts units. Since the import of pint takes a second, it is not used for the lengths in METRES.
+The unit "1" means that the unit of length is not known. Only the command line and the readers and writers of files use
+this module: inside the library, numbers are in SI units, or in consistent units that are not known.
 """
 
 import contextlib
@@ -13,9 +13,9 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
+from viscorough.basics.summaries import METRES
+
 UNKNOWN = "1"
-# Units of length that are converted without pint: {spelling in files and results: metres}. Users may write µ for u.
-_METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
 # These patterns are compiled at their first use, so that the command line starts faster.
 _ALLOWED = r"[\w.()+\-*/^ µμÅ°·⋅\"'%]{1,60}"
 _POWER = r"(?<![\w.])([^\W\d_]+|(?<=[(*/ ])[^\W\d_]+)([+-]?\d)(?![\w.])|\)([+-]?\d)(?![\w.])"
@@ -84,8 +84,8 @@ def factor(unit: str, to: str) -> float:
 
     Raises ValueError for texts that are not units, and for units of different dimensions.
     """
-    if unit in _METRES and to in _METRES:
-        return _rounded(_METRES[unit] / _METRES[to])
+    if unit in METRES and to in METRES:
+        return _rounded(METRES[unit] / METRES[to])
     one, other = _parsed(unit), _parsed(to)
     if one.dimensionality != other.dimensionality:
         raise ValueError(f"unit {unit!r}: cannot be converted to {to}")
@@ -108,13 +108,13 @@ def length_unit(text: str) -> str:
     Raises ValueError unless the text is a unit of length.
     """
     text = text.strip()
-    if (spelled := re.sub("[µμ]", "u", text)) in _METRES:
+    if (spelled := re.sub("[µμ]", "u", text)) in METRES:
         return spelled
     unit = _parsed(text)
     if not unit.check("[length]"):
         raise ValueError(f"unit {text!r}: not a unit of length, such as um, nm or m")
     metres = _rounded(unit.to_base_units().magnitude)
-    return next((spelling for spelling, length in _METRES.items() if length == metres), f"{metres!r} m")
+    return next((spelling for spelling, length in METRES.items() if length == metres), f"{metres!r} m")
 
 
 def is_length(text: str) -> bool:

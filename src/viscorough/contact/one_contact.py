@@ -54,19 +54,6 @@ def contact_at(
 ) -> list[Contact]: ...
 
 
-@overload
-def contact_at(
-    indenter: Indenter,
-    *,
-    force: ArrayLike | None = None,
-    depth: ArrayLike | None = None,
-    tolerance: float = 1e-3,
-    progress: Progress | None = None,
-    threads: int = 1,
-    options: SolverOptions = DEFAULT,
-) -> Contact | list[Contact]: ...
-
-
 def contact_at(
     indenter: Indenter,
     *,
@@ -186,8 +173,7 @@ def _with_maps(solver: ContactSolver, state: ContactState, depth: float, force: 
     depth, force, tolerance : values to store in the Contact, in its units
     """
     if not np.isfinite(state.force):
-        text = "the force is too large to represent; a larger unit of length is needed"
-        raise ValueError(f"{text}")
+        raise ValueError("the force is too large to represent; a larger unit of length is needed")
     indenter, gap, loads = solver.indenter, gap_map(solver, state), state.member_loads()
     pressure = np.where(np.isnan(gap), np.nan, 0.0)
     pressure[solver.elements.places_on_map(loads.members)] = loads.pressure * solver.units.pressure

@@ -28,7 +28,7 @@ def contact(
     tolerance: float,
     threads: int,
     progress: bool | None,
-    **constants: Any,
+    elastic: options.ElasticConstants,
 ) -> None:
     """Compute pressure, gap and contact of an indenter in an elastic half-space, at given forces or depths.
 
@@ -58,9 +58,8 @@ def contact(
             -o table.csv
     """
     options.require((force is None) != (depth is None), "one of --force and --depth is needed")
-    options.elasticity(length_unit="m", **constants)  # raises an error if these constants contradict each other
     indenter, unit = heights.read(output)
-    modulus, elastic_constants = options.elasticity(length_unit=unit, **constants)
+    modulus, elastic_attributes = elastic.converted(unit)
 
     from viscorough.contact.one_contact import contact_at
     from viscorough.io.contact_files import contacts_to_content
@@ -72,7 +71,7 @@ def contact(
         contacts: Any = contact_at(indenter, **how, progress=report)
     is_table = output.suffix.lower() == ".csv"
     content = contact_table(contacts, modulus) if is_table else contacts_to_content(contacts, indenter.heights, modulus)
-    attributes = heights.attributes(indenter, unit) | elastic_constants
+    attributes = heights.attributes(indenter, unit) | elastic_attributes
     files.write_output(content, output, "m" if is_table else unit, **attributes)
     rows, stated = rows_of_contacts(contacts[-1:], modulus)
     text = text_of_row(rows[-1], stated)

@@ -21,7 +21,7 @@ from viscorough.cli import files, messages, options, surface_options
 @click.option("--depths", type=options.Increasing("m"), help="Levels at exactly these depths.")
 @click.option("--forces", type=options.Increasing("N"), help="Levels at exactly these F/G, or F if G is given.")
 @options.tolerance
-@options.grid_error
+@click.option("--grid-error", is_flag=True, help="Estimate the error due to the map's spacing.")
 @options.until(0.9)
 @click.option("--until-force", type=options.QuantityOption("N"), help="F/G, or F with a modulus, at which to stop.")
 @options.elastic_constants
@@ -39,7 +39,7 @@ def indent(
     until_force: Quantity | None,
     threads: int,
     progress: bool | None,
-    **constants: Any,
+    elastic: options.ElasticConstants,
 ) -> None:
     """Compute the loading curve of an indenter pressed into an elastic half-space.
 
@@ -76,9 +76,8 @@ def indent(
     _check_exclusive(
         {"--depths": depths, "--forces": forces}, {"--until-fraction": until_fraction, "--until-force": until_force}
     )
-    options.elasticity(length_unit="m", **constants)  # raises an error if these constants contradict each other
     indenter, unit = heights.read(output)
-    modulus, elastic_constants = options.elasticity(length_unit=unit, **constants)
+    modulus, elastic_attributes = elastic.converted(unit)
     how: dict[str, Any] = {"tolerance": tolerance, "estimate_grid_error": grid_error, "threads": threads}
     how["depths"] = options.lengths(depths, unit, "--depths")
     how["forces"] = options.forces(forces, modulus, unit, "--forces")
@@ -90,7 +89,7 @@ def indent(
 
     with messages.progress_bar("viscorough indent", progress) as report:
         curve = viscorough.indent(indenter, **how, progress=report)
-    attributes = heights.attributes(indenter, unit) | elastic_constants
+    attributes = heights.attributes(indenter, unit) | elastic_attributes
     files.write_output(curve_to_content(curve, modulus), output, unit, **attributes)
     lines = [_last_level(curve, indenter, modulus), curve.grid_error_text]
     messages.announce(output, "\n".join(filter(None, lines)))

@@ -19,9 +19,15 @@ _CORRESPONDENCE = (
 
 @click.command(cls=options.Command, short_help="Penetration over time in any linear viscoelastic half-space.")
 @click.argument("curve", type=options.FILE, metavar="CURVE.nc")
-@options.force
+@click.option("--force", type=options.QuantityOption("N"), help="Constant force F, applied at time 0.")
 @options.force_history
-@options.depth_history
+@click.option(
+    "--depth-history",
+    type=options.FILE,
+    metavar="DEPTH.csv",
+    help="Columns time (s) and depth (um), instead of a force: linear in between; a time given twice is a step. A "
+    "depth below 0 lifts the indenter.",
+)
 @options.columns
 @options.viscosity
 @options.medium

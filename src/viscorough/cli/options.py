@@ -1,12 +1,14 @@
 """Define the options that several commands share, and the types of their values."""
 
 import contextlib
+import functools
 import inspect
 import itertools
 import math
 import re
 import shlex
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -78,29 +80,26 @@ class PositiveNumber(click.FloatRange):
 class QuantityOption(click.ParamType):
     """Type of options: a finite number above 0, plain or with a unit, such as "5 mN" if "N" is allowed.
 
-    The unit must have the same dimension as one of the units `allowed`. The text is converted to a
+    The unit must have the same dimension as the unit `allowed`. The text is converted to a
     viscorough.basics.units.Quantity. Later, the commands convert this Quantity by units.in_si to a number in SI units.
     """
 
     name = "quantity"
 
-    def __init__(self, *allowed: str) -> None:
-        self.units = allowed
+    def __init__(self, allowed: str) -> None:
+        self.unit = allowed
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Quantity:
         reason = ""
         try:
             stated = units.quantity(value)
-            for unit in self.units:
-                with contextlib.suppress(ValueError):
-                    if 0 < stated.to(unit) < math.inf:
-                        return stated
-            stated.to(self.units[0])
+            if 0 < stated.to(self.unit) < math.inf:
+                return stated
         except ValueError as error:
             if " has a comma in its number" in str(error):
                 raise click.BadParameter(str(error), ctx, param) from error
             reason = f" ({error})" if str(error).startswith("unit ") else ""
-        text = f"{value!r} is not a number above 0 and finite, plain or with a unit such as {' or '.join(self.units)}"
+        text = f"{value!r} is not a number above 0 and finite, plain or with a unit such as {self.unit}"
         raise click.BadParameter(f"{text}{reason}", ctx, param)
 
 
@@ -190,19 +189,11 @@ def output(
     return click.option("-o", "--output", type=FILE, required=required, metavar=metavar, help=text, callback=check)
 
 
-force = click.option("--force", type=QuantityOption("N"), help="Constant force F, applied at time 0.")
 force_history = click.option(
     "--force-history",
     type=FILE,
     metavar="FORCE.csv",
     help="Columns time (s) and force (N), instead of --force: F >= 0, linear in between; a time given twice is a step.",
-)
-depth_history = click.option(
-    "--depth-history",
-    type=FILE,
-    metavar="DEPTH.csv",
-    help="Columns time (s) and depth (um), instead of a force: linear in between; a time given twice is a step. A "
-    "depth below 0 lifts the indenter.",
 )
 columns = click.option(
     "--columns",
@@ -229,7 +220,6 @@ medium = click.option(
     callback=_refuse_viscosity,
     help="Medium of the half-space, instead of --viscosity.",
 )
-grid_error = click.option("--grid-error", is_flag=True, help="Estimate the error due to the map's spacing.")
 tolerance = click.option(
     "--tolerance", type=PositiveNumber(0.1), default=1e-3, help="Relative accuracy, 1e-12 or more."
 )
@@ -254,39 +244,49 @@ def until(default: float) -> Callable[..., Any]:
     return click.option("--until-fraction", type=PositiveNumber(1), help=text)
 
 
-def elastic_constants(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Decorate a command with the options --shear-modulus, --young and --poisson."""
-    ratio = PositiveNumber(0.5, above=-1)
-    command = click.option("--poisson", type=ratio, help="Poisson ratio, with --young  [default: 0.5]")(command)
-    command = click.option("--young", type=QuantityOption("Pa"), help="Young's modulus, instead of G.")(command)
-    text = "Shear modulus G of the half-space."
-    return click.option("--shear-modulus", type=QuantityOption("Pa"), help=text)(command)
+@dataclass(frozen=True)
+class ElasticConstants:
+    """Moduli and Poisson ratio of the half-space, as the user gave them.
 
-
-def elasticity(
-    shear_modulus: Quantity | None, young: Quantity | None, poisson: float | None, length_unit: str
-) -> tuple[float | None, dict[str, float]]:
-    """Return the shear modulus G that follows from the options, and {attribute of the output file: value}.
-
-    G belongs to the incompressible half-space with the same E* = E/(1 − ν²) = 4G [Pa, or consistent units]. G is None
-    if no modulus is given.
-
-    Raises UsageError if the options contradict each other, and the errors of units.in_si.
+    Raises UsageError if they contradict each other.
     """
-    require(
-        shear_modulus is None or young is None, "--shear-modulus and --young exclude each other; one of them is allowed"
-    )
-    require(poisson is None or young is not None, "--poisson is for use with --young")
-    if young is not None:
-        modulus, ratio = (
-            units.in_si(young, "Pa", length_unit, "--young"),
-            INCOMPRESSIBLE if poisson is None else poisson,
-        )
-        return modulus / young_over_shear(ratio), {"young_modulus": modulus, "poisson_ratio": ratio}
-    if shear_modulus is None:
-        return None, {}
-    modulus = units.in_si(shear_modulus, "Pa", length_unit, "--shear-modulus")
-    return modulus, {"shear_modulus": modulus}
+
+    shear_modulus: Quantity | None
+    young: Quantity | None
+    poisson: float | None
+
+    def __post_init__(self) -> None:
+        exclusive = "--shear-modulus and --young exclude each other; one of them is allowed"
+        require(self.shear_modulus is None or self.young is None, exclusive)
+        require(self.poisson is None or self.young is not None, "--poisson is for use with --young")
+
+    def converted(self, length_unit: str) -> tuple[float | None, dict[str, float]]:
+        """Return the shear modulus G that follows from the options, and {attribute of the output file: value}.
+
+        G belongs to the incompressible half-space with the same E* = E/(1 − ν²) = 4G [Pa, or consistent units]. G is
+        None if no modulus is given. Raises the errors of units.in_si.
+        """
+        if self.young is not None:
+            modulus = units.in_si(self.young, "Pa", length_unit, "--young")
+            ratio = INCOMPRESSIBLE if self.poisson is None else self.poisson
+            return modulus / young_over_shear(ratio), {"young_modulus": modulus, "poisson_ratio": ratio}
+        if self.shear_modulus is None:
+            return None, {}
+        modulus = units.in_si(self.shear_modulus, "Pa", length_unit, "--shear-modulus")
+        return modulus, {"shear_modulus": modulus}
+
+
+def elastic_constants(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Decorate a command with --shear-modulus, --young and --poisson, which it receives as `elastic`."""
+
+    @click.option("--shear-modulus", type=QuantityOption("Pa"), help="Shear modulus G of the half-space.")
+    @click.option("--young", type=QuantityOption("Pa"), help="Young's modulus, instead of G.")
+    @click.option("--poisson", type=PositiveNumber(0.5, above=-1), help="Poisson ratio, with --young  [default: 0.5]")
+    @functools.wraps(command)
+    def packed(*, shear_modulus: Any, young: Any, poisson: Any, **values: Any) -> Any:
+        return command(elastic=ElasticConstants(shear_modulus, young, poisson), **values)
+
+    return packed
 
 
 def lengths(quantities: Sequence[Quantity] | None, length_unit: str, name: str) -> list[float] | None:

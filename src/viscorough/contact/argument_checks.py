@@ -3,17 +3,17 @@
 import sys
 import warnings
 
-from viscorough.basics.arrays import real_number
+from viscorough.basics.arrays import real_number, whole_number
 from viscorough.basics.errors import AccuracyWarning
 from viscorough.basics.summaries import with_unit
-from viscorough.contact.options import DEFAULT, SolverOptions
-from viscorough.contact.parallel import require_threads
+from viscorough.contact.options import SolverOptions
 from viscorough.surfaces.indenter import Indenter, check_indenter
 
+# Largest number of threads that a user can request.
+_MOST_THREADS = 1024
 
-def check_solvable(
-    name: str, indenter: Indenter, tolerance: float, threads: int = 1, options: SolverOptions = DEFAULT
-) -> float:
+
+def check_solvable(name: str, indenter: Indenter, tolerance: float, threads: int, options: SolverOptions) -> float:
     """Check the arguments of a function of the contact solver, and return the tolerance as a float.
 
     name : name of the function; error messages start with it
@@ -28,7 +28,7 @@ def check_solvable(
     tolerance = real_number("argument tolerance", tolerance)
     if not 1e-12 <= tolerance <= 0.1:
         raise ValueError(f"argument tolerance must be between 1e-12 and 0.1, not {tolerance!r}")
-    require_threads(threads)
+    whole_number("argument threads", threads, 1, _MOST_THREADS)
     if not isinstance(options, SolverOptions):
         raise TypeError(f"{name}: options: {type(options).__name__}; viscorough.SolverOptions(...) is needed")
     return tolerance

@@ -16,19 +16,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from viscorough.basics.arrays import whole_number
-
 # Largest number of array entries in a block. A map of 257 x 257 elements fits into one block, so it needs no threads.
 BLOCK = 1 << 17
-# Largest number of threads that a user can request.
-MOST_THREADS = 1024
 # Size of a line of the processor's cache in bytes.
 _CACHE_LINE = 64
-
-
-def require_threads(threads: Any) -> None:
-    """Raise ValueError unless `threads` is a whole number from 1 to MOST_THREADS."""
-    whole_number("argument threads", threads, 1, MOST_THREADS)
 
 
 def run_blocks(

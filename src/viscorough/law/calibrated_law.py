@@ -47,6 +47,9 @@ from viscorough.basics.types import Array, Numbers
 
 # Number of elements across the discs with which the law was calibrated.
 ACROSS = 257
+# Within its range, the law's g deviates by at most this share from the mean g of discs that were not used to calibrate
+# the law.
+LARGEST_DEVIATION = 0.05
 # Exponents of the law that do not depend on H: 3/2 at the transition from region (a), and 4 in the last factor of g₁.
 _ONSET, _LAST = 1.5, 4.0
 # Length and number of the steps in ln X by which g is integrated up to X. The integral starts at e^-40 X, far inside

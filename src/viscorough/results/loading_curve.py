@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscorough.basics.arrays import increasing, positive, real_numbers
+from viscorough.basics.arrays import increasing, real_numbers
 from viscorough.basics.summaries import InNotebooks, span, unit_power
-from viscorough.basics.types import Array, Integers, Pair, Scalar
+from viscorough.basics.types import Array, Integers, Pair
 
 # Allowed relative rounding error of forces and depths.
 _ROUNDING = 1e-12
@@ -162,16 +162,6 @@ class LoadingCurve(InNotebooks):
         This is the case if all elements in contact at the first level have the same height.
         """
         return bool(abs(self.force[0] - self.stiffness[0] * self.depth[0]) <= _ROUNDING * self.force[0])
-
-    def normalised(self, rms: Scalar, diameter: Scalar) -> tuple[Array, Array]:
-        """Return the reduced force X = F/(4GhL) and stiffness κ = k/(4GL) at all levels, each of shape (levels,).
-
-        See Eq. 3 of the paper.
-
-        rms, diameter : rms height h and diameter L [length]
-        """
-        rms, diameter = positive("rms", rms), positive("diameter", diameter)
-        return self.force / (4 * rms * diameter), self.stiffness / (4 * diameter)
 
     def at_force(self, force: "ArrayLike") -> tuple[Array, Array]:
         """Interpolate depth u and stiffness k/G at given forces F/G; nan beyond the last level.

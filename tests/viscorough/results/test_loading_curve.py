@@ -146,9 +146,6 @@ def test_depths_outside_the_levels_give_nan():
     np.testing.assert_array_equal(curve.at_depth([0.0, 0.05, 0.1])[0], [0.0, np.nan, curve.force[0]])
 
 
-def test_curve_has_normalised_axes_and_contact_fraction():
+def test_contact_fraction_is_the_share_of_all_elements():
     curve = springs(np.array([0.0, 0.5]), [0.2, 0.8])
-    x, kappa = curve.normalised(rms=0.1, diameter=5.0)
-    np.testing.assert_allclose(x, curve.force / 2.0, rtol=1e-15)
-    np.testing.assert_allclose(kappa, curve.stiffness / 20.0, rtol=1e-15)
     np.testing.assert_array_equal(curve.contact_fraction, [1e-6, 2e-6])

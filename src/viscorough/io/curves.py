@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from viscorough.basics import units
-from viscorough.basics.summaries import unit_power
+from viscorough.basics.summaries import si_unit, unit_power
 from viscorough.basics.types import Array
 from viscorough.io.netcdf import Content
 from viscorough.results.loading_curve import LoadingCurve
@@ -77,11 +77,9 @@ def curve_to_content(curve: LoadingCurve, shear_modulus: float | None = None) ->
 def described(long_name: str, unit: str, length_unit: str) -> dict[str, str]:
     """Return the attributes long_name and units of a variable.
 
-    unit : SI unit. If `length_unit` is "1", lengths and forces have no known unit, and only times keep their unit
+    unit : SI unit. If `length_unit` is "1", the user chooses all units, and the variable has the unit "1"
     """
-    if length_unit == "1":
-        unit = {"s": "s", "m s-1": "s-1"}.get(unit, "1")
-    return {"long_name": long_name, "units": unit}
+    return {"long_name": long_name, "units": si_unit(unit, length_unit)}
 
 
 def curve_from_content(content: Content) -> LoadingCurve:

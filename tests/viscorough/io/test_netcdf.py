@@ -71,8 +71,8 @@ def test_content_is_read_exactly_as_written(tmp_path):
         np.testing.assert_equal(stored[name][2], about)
 
 
-@pytest.mark.parametrize(("unit", "units"), [("m", ("s", "m s-1", "m2")), ("1", ("s", "s-1", "1"))])
-def test_only_times_keep_their_unit_without_a_unit_of_length(unit, units):
+@pytest.mark.parametrize(("unit", "units"), [("m", ("s", "m s-1", "m2")), ("1", ("1", "1", "1"))])
+def test_without_a_unit_of_length_all_units_are_the_users(unit, units):
     assert tuple(described("", each, unit)["units"] for each in ("s", "m s-1", "m2")) == units
 
 

@@ -71,7 +71,6 @@ rule fit_local_slope:
     resources:
         mem_mb=2000,
     params:
-        controls=["roll_off"],
         region=without("scaling", "stiffness_range", "resamples"),
         resamples=config["scaling"]["resamples"],
         seed=config["seed"],

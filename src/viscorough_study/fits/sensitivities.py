@@ -9,12 +9,10 @@ import pandas as pd
 
 from viscorough import reference
 from viscorough_study.ensembles.pool import ensembles
-from viscorough_study.fits.conventions import convert_zeta
+from viscorough_study.fits.conventions import CONTROL, convert_zeta
 from viscorough_study.fits.fit_table import fit_rows
 from viscorough_study.fits.intervals import described
 
-# Groups of discs that follow no power law.
-CONTROLS = ("roll_off",)
 _RATIO = {f"zeta_fixed{end}": f"zeta_ratio{end}" for end in ("", "_low", "_high")}
 COLUMNS = {
     "reading": (
@@ -36,13 +34,13 @@ COLUMNS = {
 def sensitivities(*pools, **fit):
     """Fit every ensemble of discs in every convention; return a pandas.DataFrame with the columns `COLUMNS`.
 
-    pools : pools of the loading curves of discs (viscorough_study.ensembles.pool); controls are left out
+    pools : pools of the loading curves of discs (viscorough_study.ensembles.pool); the control is left out
     fit : arguments of fits.fit_table.fit_rows: limits of region (b), resamples and seed of the bootstrap
     """
     rows = []
     for pool in pools:
         for (group, _), ensemble in ensembles(pool, "group", "hurst").items():
-            if group not in CONTROLS:
+            if group != CONTROL:
                 rows += fit_rows(ensemble, source="discs", group=group, **fit)
     table = convert_zeta(pd.DataFrame(rows), "with").rename(columns={"group": "surfaces"})
     ratios = {ratio: table[zeta] / reference.zeta_viscous(table["hurst"]) for zeta, ratio in _RATIO.items()}

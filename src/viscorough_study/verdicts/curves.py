@@ -10,6 +10,7 @@ import numpy as np
 from scipy.special import fdtri
 
 from viscorough import reference
+from viscorough_study.fits.conventions import CONTROL
 from viscorough_study.fits.intervals import UNDEFINED, interval, mean_with_interval, resampled_means, with_interval
 from viscorough_study.fits.power_law import fit_power_law, inner_slopes, log_means
 from viscorough_study.verdicts.claim import claim
@@ -186,7 +187,8 @@ def power_law(evidence, tolerance):
 )
 def power_law_control(evidence, tolerance):
     """Test whether the criterion of `power_law` rejects discs without long waves, at each Hurst exponent."""
-    table = evidence.tables["local_slope"].query("group not in @evidence.groups")
+    table = evidence.tables["local_slope"]
+    table = table[table["group"] == CONTROL]
     if table.empty:
         yield judged("no control", UNDEFINED, np.nan, None)
     yield from _spreads(evidence, table, (tolerance, np.inf))

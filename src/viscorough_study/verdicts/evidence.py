@@ -64,11 +64,6 @@ class Evidence:
         groups = set(self.discs["group"].values.tolist())
         return {name: replace(self, reading=name) for name, own in READINGS.items() if own["group"] in groups}
 
-    @property
-    def groups(self):
-        """Return the names of the groups of discs that belong to a reading; other groups are controls."""
-        return [own["group"] for own in READINGS.values()]
-
     @cached_property
     def _discs_of_reading(self):
         return pool.select(self.discs, group=READINGS[self.reading]["group"])

@@ -210,14 +210,15 @@ rule tabulate_sensitivities:
         "../scripts/tabulate_sensitivities.py"
 
 
-use rule plot_surfaces as plot_interface with:
+rule plot_interface:
+    """Figure: interface and punch in series."""
     input:
-        table="results/tables/interface.csv",
-        curves="results/tables/interface_curves.csv",
+        interface="results/tables/interface.csv",
+        interface_curves="results/tables/interface_curves.csv",
         literature="results/tables/literature.csv",
         periodic="results/tables/periodic.csv",
     output:
-        path=report(
+        figure=report(
             "results/figures/interface.{format}",
             caption="../report/figures/interface.rst",
             category="8 Beyond the paper",
@@ -227,18 +228,25 @@ use rule plot_surfaces as plot_interface with:
         "results/logs/plot_interface/{format}.log",
     benchmark:
         "results/benchmarks/plot_interface/{format}.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
     params:
-        figure="interface",
-        source=digest("plot", figure="interface"),
+        source=digest("plot_interface"),
     message:
         "Figure: interface and punch in series"
+    script:
+        "../scripts/plot_interface.py"
 
 
-use rule plot_surfaces as plot_reduction with:
+rule plot_reduction:
+    """Figure: MDR, surface by surface."""
     input:
-        table="results/tables/reduction.csv",
+        reduction="results/tables/reduction.csv",
     output:
-        path=report(
+        figure=report(
             "results/figures/reduction.{format}",
             caption="../report/figures/reduction.rst",
             category="8 Beyond the paper",
@@ -248,18 +256,25 @@ use rule plot_surfaces as plot_reduction with:
         "results/logs/plot_reduction/{format}.log",
     benchmark:
         "results/benchmarks/plot_reduction/{format}.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
     params:
-        figure="reduction",
-        source=digest("plot", figure="reduction"),
+        source=digest("plot_reduction"),
     message:
         "Figure: MDR, surface by surface"
+    script:
+        "../scripts/plot_reduction.py"
 
 
-use rule plot_surfaces as plot_media with:
+rule plot_media:
+    """Figure: kinetics in other media."""
     input:
-        table="results/tables/media.csv",
+        media="results/tables/media.csv",
     output:
-        path=report(
+        figure=report(
             "results/figures/media.{format}",
             caption="../report/figures/media.rst",
             category="8 Beyond the paper",
@@ -269,18 +284,25 @@ use rule plot_surfaces as plot_media with:
         "results/logs/plot_media/{format}.log",
     benchmark:
         "results/benchmarks/plot_media/{format}.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
     params:
-        figure="media",
-        source=digest("plot", figure="media"),
+        source=digest("plot_media"),
     message:
         "Figure: kinetics in other media"
+    script:
+        "../scripts/plot_media.py"
 
 
-use rule plot_surfaces as plot_histories with:
+rule plot_histories:
+    """Figure: any history."""
     input:
-        table="results/tables/histories.csv",
+        histories="results/tables/histories.csv",
     output:
-        path=report(
+        figure=report(
             "results/figures/histories.{format}",
             caption="../report/figures/histories.rst",
             category="8 Beyond the paper",
@@ -290,11 +312,17 @@ use rule plot_surfaces as plot_histories with:
         "results/logs/plot_histories/{format}.log",
     benchmark:
         "results/benchmarks/plot_histories/{format}.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
     params:
-        figure="histories",
-        source=digest("plot", figure="histories"),
+        source=digest("plot_histories"),
     message:
         "Figure: any history"
+    script:
+        "../scripts/plot_histories.py"
 
 
 rule make_beyond_page:

@@ -190,7 +190,7 @@ def without(section, *names):
 # ---- source code and other data of the project, for params
 
 
-def digest(script, figure=None):
+def digest(script):
     """Return a digest of the source code that a job uses, so that a change of this code reruns the job.
 
     The param `source` of every rule with a script is this digest. It replaces Snakemake's trigger `code`, which
@@ -198,10 +198,8 @@ def digest(script, figure=None):
     a job when only comments have changed.
 
     script : name of the script in workflow/scripts
-    figure : name of the module in viscorough_study.figures that the script imports by name
     """
-    modules = [f"viscorough_study.figures.{figure}"] if figure else []
-    return SOURCES.digest(WORKFLOW / "scripts" / f"{script}.py", *modules)
+    return SOURCES.digest(WORKFLOW / "scripts" / f"{script}.py")
 
 
 def text_digests(paths):

@@ -1,14 +1,14 @@
 # Rules that draw the figures. The rule plot_NAME draws with the function plot_NAME in
-# src/viscorough_study/figures/NAME.py. All rules share the script plot.py; directives that a rule does not state are the
-# directives of the first rule. The report and the page show the figures as PNG files. To get a PDF file, name it:
-# `snakemake --cores 2 results/figures/fig4_exponent.pdf`.
+# src/viscorough_study/figures/NAME.py. The report and the page show the figures as PNG files. To get a PDF file, name
+# it: `snakemake --cores 2 results/figures/fig4_exponent.pdf`.
 
 
 rule plot_surfaces:
+    """Figure: 1, surfaces."""
     input:
         examples="results/surfaces/examples.nc",
     output:
-        path=report(
+        figure=report(
             "results/figures/fig1_surfaces.{format}",
             caption="../report/figures/fig1_surfaces.rst",
             category="2 Figures of the paper",
@@ -24,20 +24,20 @@ rule plot_surfaces:
     resources:
         mem_mb=1000,
     params:
-        figure="surfaces",
-        source=digest("plot", figure="surfaces"),
+        source=digest("plot_surfaces"),
     message:
         "Figure: 1, surfaces"
     script:
-        "../scripts/plot.py"
+        "../scripts/plot_surfaces.py"
 
 
-use rule plot_surfaces as plot_kinetics with:
+rule plot_kinetics:
+    """Figure: 2, kinetics."""
     input:
-        ensembles="results/ensembles/discs.nc",
+        discs="results/ensembles/discs.nc",
         scaling="results/tables/scaling.csv",
     output:
-        path=report(
+        figure=report(
             "results/figures/fig2_kinetics.{format}",
             caption="../report/figures/fig2_kinetics.rst",
             category="2 Figures of the paper",
@@ -47,28 +47,30 @@ use rule plot_surfaces as plot_kinetics with:
         "results/logs/plot_kinetics/{format}.log",
     benchmark:
         "results/benchmarks/plot_kinetics/{format}.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
     params:
-        figure="kinetics",
-        options={
-            "combinations": {
-                name: ensemble["combination"] for name, ensemble in samples.combined_ensembles(config).items()
-            },
-            "conventions": SHOWN,
-            "fraction_min": config["scaling"]["fraction_min"],
-        },
-        source=digest("plot", figure="kinetics"),
+        combinations=samples.combinations(config),
+        conventions=SHOWN,
+        fraction_min=config["scaling"]["fraction_min"],
+        source=digest("plot_kinetics"),
     message:
         "Figure: 2, kinetics"
+    script:
+        "../scripts/plot_kinetics.py"
 
 
-use rule plot_surfaces as plot_master_curve with:
+rule plot_master_curve:
+    """Figure: 3, master curve."""
     input:
         discs="results/ensembles/discs.nc",
-        longer_period="results/ensembles/discs.nc",
         lines="results/ensembles/lines.nc",
         scaling="results/tables/scaling.csv",
     output:
-        path=report(
+        figure=report(
             "results/figures/fig3_master_curve.{format}",
             caption="../report/figures/fig3_master_curve.rst",
             category="2 Figures of the paper",
@@ -78,22 +80,27 @@ use rule plot_surfaces as plot_master_curve with:
         "results/logs/plot_master_curve/{format}.log",
     benchmark:
         "results/benchmarks/plot_master_curve/{format}.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
     params:
-        figure="master_curve",
-        options={
-            "conventions": SHOWN,
-            "fraction_min": config["scaling"]["fraction_min"],
-        },
-        source=digest("plot", figure="master_curve"),
+        conventions=SHOWN,
+        fraction_min=config["scaling"]["fraction_min"],
+        source=digest("plot_master_curve"),
     message:
         "Figure: 3, master curve"
+    script:
+        "../scripts/plot_master_curve.py"
 
 
-use rule plot_surfaces as plot_exponent with:
+rule plot_exponent:
+    """Figure: 4, exponent."""
     input:
         scaling="results/tables/scaling.csv",
     output:
-        path=report(
+        figure=report(
             "results/figures/fig4_exponent.{format}",
             caption="../report/figures/fig4_exponent.rst",
             category="2 Figures of the paper",
@@ -103,25 +110,29 @@ use rule plot_surfaces as plot_exponent with:
         "results/logs/plot_exponent/{format}.log",
     benchmark:
         "results/benchmarks/plot_exponent/{format}.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
     params:
-        figure="exponent",
-        options={
-            "conventions": SHOWN,
-            "hurst_range": paper("laws")["beta"]["hurst_range"],
-            "fine_grids": judged_rows(PROJECT),
-        },
-        source=digest("plot", figure="exponent"),
+        conventions=SHOWN,
+        hurst_range=paper("laws")["beta"]["hurst_range"],
+        fine_grids=judged_rows(PROJECT),
+        source=digest("plot_exponent"),
     message:
         "Figure: 4, exponent"
+    script:
+        "../scripts/plot_exponent.py"
 
 
-use rule plot_surfaces as plot_regions with:
+rule plot_regions:
+    """Figure: regions of the curves."""
     input:
         discs="results/ensembles/discs.nc",
-        controls="results/ensembles/discs.nc",
         local_slope="results/tables/local_slope.csv",
     output:
-        path=report(
+        figure=report(
             "results/figures/regions.{format}",
             caption="../report/figures/regions.rst",
             category="3 Verdicts",
@@ -131,21 +142,26 @@ use rule plot_surfaces as plot_regions with:
         "results/logs/plot_regions/{format}.log",
     benchmark:
         "results/benchmarks/plot_regions/{format}.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
     params:
-        figure="regions",
-        options={
-            "fraction_min": config["scaling"]["fraction_min"],
-        },
-        source=digest("plot", figure="regions"),
+        fraction_min=config["scaling"]["fraction_min"],
+        source=digest("plot_regions"),
     message:
         "Figure: regions of the curves"
+    script:
+        "../scripts/plot_regions.py"
 
 
-use rule plot_surfaces as plot_direct with:
+rule plot_direct:
+    """Figure: direct integration and both readings of the law."""
     input:
-        table="results/tables/direct.csv",
+        direct="results/tables/direct.csv",
     output:
-        path=report(
+        figure=report(
             "results/figures/direct.{format}",
             caption="../report/figures/direct.rst",
             category="3 Verdicts",
@@ -155,19 +171,26 @@ use rule plot_surfaces as plot_direct with:
         "results/logs/plot_direct/{format}.log",
     benchmark:
         "results/benchmarks/plot_direct/{format}.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
     params:
-        figure="direct",
-        source=digest("plot", figure="direct"),
+        source=digest("plot_direct"),
     message:
         "Figure: direct integration and both readings of the law"
+    script:
+        "../scripts/plot_direct.py"
 
 
-use rule plot_surfaces as plot_mdr_lambda with:
+rule plot_mdr_lambda:
+    """Figure: MDR, lambda and exponents."""
     input:
-        lambdas="results/tables/mdr_lambda.csv",
-        exponents="results/tables/mdr_exponents.csv",
+        mdr_lambda="results/tables/mdr_lambda.csv",
+        mdr_exponents="results/tables/mdr_exponents.csv",
     output:
-        path=report(
+        figure=report(
             "results/figures/mdr_lambda.{format}",
             caption="../report/figures/mdr_lambda.rst",
             category="3 Verdicts",
@@ -177,18 +200,25 @@ use rule plot_surfaces as plot_mdr_lambda with:
         "results/logs/plot_mdr_lambda/{format}.log",
     benchmark:
         "results/benchmarks/plot_mdr_lambda/{format}.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
     params:
-        figure="mdr_lambda",
-        source=digest("plot", figure="mdr_lambda"),
+        source=digest("plot_mdr_lambda"),
     message:
         "Figure: MDR, lambda and exponents"
+    script:
+        "../scripts/plot_mdr_lambda.py"
 
 
-use rule plot_surfaces as plot_validation with:
+rule plot_validation:
+    """Figure: comparison with exact solutions."""
     input:
-        table="results/tables/validation.csv",
+        validation="results/tables/validation.csv",
     output:
-        path=report(
+        figure=report(
             "results/figures/validation.{format}",
             caption="../report/figures/validation.rst",
             category="4 Conventions and validation",
@@ -198,18 +228,25 @@ use rule plot_surfaces as plot_validation with:
         "results/logs/plot_validation/{format}.log",
     benchmark:
         "results/benchmarks/plot_validation/{format}.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
     params:
-        figure="validation",
-        source=digest("plot", figure="validation"),
+        source=digest("plot_validation"),
     message:
         "Figure: comparison with exact solutions"
+    script:
+        "../scripts/plot_validation.py"
 
 
-use rule plot_surfaces as plot_speed with:
+rule plot_speed:
+    """Figure: speed against accuracy."""
     input:
-        means="results/tables/mean_accuracy.csv",
+        mean_accuracy="results/tables/mean_accuracy.csv",
     output:
-        path=report(
+        figure=report(
             "results/figures/speed.{format}",
             caption="../report/figures/speed.rst",
             category="6 Speed and accuracy",
@@ -219,21 +256,26 @@ use rule plot_surfaces as plot_speed with:
         "results/logs/plot_speed/{format}.log",
     benchmark:
         "results/benchmarks/plot_speed/{format}.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
     params:
-        figure="speed",
-        options={
-            "other_solvers": read_records(PROJECT / "resources/published/other_solvers.csv"),
-        },
-        source=digest("plot", figure="speed"),
+        other_solvers=read_records(PROJECT / "resources/published/other_solvers.csv"),
+        source=digest("plot_speed"),
     message:
         "Figure: speed against accuracy"
+    script:
+        "../scripts/plot_speed.py"
 
 
-use rule plot_surfaces as plot_failures with:
+rule plot_failures:
+    """Figure: where methods fail."""
     input:
-        table="results/tables/failures.csv",
+        failures="results/tables/failures.csv",
     output:
-        path=report(
+        figure=report(
             "results/figures/failures.{format}",
             caption="../report/figures/failures.rst",
             category="7 Where methods fail",
@@ -243,18 +285,25 @@ use rule plot_surfaces as plot_failures with:
         "results/logs/plot_failures/{format}.log",
     benchmark:
         "results/benchmarks/plot_failures/{format}.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
     params:
-        figure="failures",
-        source=digest("plot", figure="failures"),
+        source=digest("plot_failures"),
     message:
         "Figure: where methods fail"
+    script:
+        "../scripts/plot_failures.py"
 
 
-use rule plot_surfaces as plot_local_exponent with:
+rule plot_local_exponent:
+    """Figure: local exponent over X."""
     input:
-        exponents="results/tables/fine_exponents.csv",
+        fine_exponents="results/tables/fine_exponents.csv",
     output:
-        path=report(
+        figure=report(
             "results/figures/local_exponent.{format}",
             caption="../report/figures/local_exponent.rst",
             category="8 Beyond the paper",
@@ -264,21 +313,28 @@ use rule plot_surfaces as plot_local_exponent with:
         "results/logs/plot_local_exponent/{format}.log",
     benchmark:
         "results/benchmarks/plot_local_exponent/{format}.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
     params:
-        figure="local_exponent",
-        source=digest("plot", figure="local_exponent"),
+        source=digest("plot_local_exponent"),
     message:
         "Figure: local exponent over X"
+    script:
+        "../scripts/plot_local_exponent.py"
 
 
-use rule plot_surfaces as plot_measured with:
+rule plot_measured:
+    """Figure: measured surfaces."""
     input:
-        groups="results/ensembles/measured.nc",
+        measured="results/ensembles/measured.nc",
         discs="results/ensembles/discs.nc",
-        scaling="results/tables/measured_fits.csv",
+        fits="results/tables/measured_fits.csv",
         kinetics="results/tables/measured_kinetics.csv",
     output:
-        path=report(
+        figure=report(
             "results/figures/measured.{format}",
             caption="../report/figures/measured.rst",
             category="8 Beyond the paper",
@@ -288,15 +344,19 @@ use rule plot_surfaces as plot_measured with:
         "results/logs/plot_measured/{format}.log",
     benchmark:
         "results/benchmarks/plot_measured/{format}.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
     params:
-        figure="measured",
-        options={
-            "conventions": SHOWN,
-            "fraction_min": config["scaling"]["fraction_min"],
-        },
-        source=digest("plot", figure="measured"),
+        conventions=SHOWN,
+        fraction_min=config["scaling"]["fraction_min"],
+        source=digest("plot_measured"),
     message:
         "Figure: measured surfaces"
+    script:
+        "../scripts/plot_measured.py"
 
 
 # ---- targets

@@ -92,6 +92,11 @@ def ensembles(pool, *names, rms_convention=None):
     return result
 
 
+def by_hurst(pool, group):
+    """Return the ensembles of a group as a list, one for each Hurst exponent."""
+    return list(ensembles(select(pool, group=group), "hurst").values())
+
+
 def elements_across(elements):
     """Return the number of elements across a disc that has `elements` elements in all.
 

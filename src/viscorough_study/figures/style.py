@@ -136,33 +136,32 @@ def new_panels(count, columns, height, rest, *, xlabel="", ylabel="", **sharing)
 
 
 @in_style
-def save_figure(figure, *paths):
-    """Write a figure to files; the suffix of each path (.png or .pdf) determines the format of the file.
+def save_figure(figure, path):
+    """Write a figure to a file; the suffix of the path (.png or .pdf) determines the format of the file.
 
-    Files are written atomically and state the record of the job (run.made_with). The same figure gives the same bytes.
-    Raises ValueError for another suffix, and
-    for a path that cannot be written.
+    The file is written atomically and states the record of the job (run.made_with). The same figure gives the same
+    bytes. A PDF file that is older than its PNG file does not stay: see `_remove_outdated_pdf`.
+    Raises ValueError for another suffix, and for a path that cannot be written.
     """
-    for path in paths:
-        if (suffix := Path(path).suffix) not in _WRITERS:
-            raise ValueError(f"{path}: unknown kind of figure; allowed: {', '.join(_WRITERS)}")
-        figure.set_dpi(DPI)
-        with atomic_write(path) as temporary:
-            _WRITERS[suffix](figure, temporary)
-        # Keep the layout of the first file. Computing the layout again would take as long as drawing.
-        figure.set_layout_engine("none")
+    if (suffix := Path(path).suffix) not in _WRITERS:
+        raise ValueError(f"{path}: unknown kind of figure; allowed: {', '.join(_WRITERS)}")
+    figure.set_dpi(DPI)
+    with atomic_write(path) as temporary:
+        _WRITERS[suffix](figure, temporary)
+    if suffix == ".png":
+        _remove_outdated_pdf(Path(path).with_suffix(".pdf"))
 
 
-def remove_outdated_pdf(path, inputs):
-    """Remove the PDF file of a figure if its PNG file `path` was made again, since only a request makes a PDF file.
+def _remove_outdated_pdf(pdf):
+    """Remove the PDF file of a figure whose PNG file was made again, since only a request makes a PDF file.
 
-    A PDF file with the record of this job is kept if it is newer than the inputs of the figure: both files were then
+    A PDF file with the record of this job is kept if it is newer than the inputs of the job: both files were then
     requested at the same time.
     """
-    pdf, own = Path(path).with_suffix(".pdf"), made_with()
-    if Path(path) != pdf and pdf.is_file():
-        is_newer = all(pdf.stat().st_mtime_ns > Path(file).stat().st_mtime_ns for file in inputs)
-        if not (is_newer and own and read_record(pdf) == own[NAME]):
+    if pdf.is_file():
+        own = made_with().get(NAME, {"inputs": []})
+        is_newer = all(pdf.stat().st_mtime_ns > Path(file).stat().st_mtime_ns for file in own["inputs"])
+        if not (is_newer and read_record(pdf) == own):
             pdf.unlink()
 
 

@@ -118,7 +118,7 @@ def caption(text, conventions):
     text : reStructuredText of the caption, with placeholders for conventions
     conventions : settings for choices that the paper leaves open; they replace the placeholders
     """
-    snakemake = {"params": {"options": {"conventions": conventions}}}
+    snakemake = {"params": {"conventions": conventions}}
     text = jinja2.Template(text, undefined=jinja2.StrictUndefined).render(snakemake=snakemake)
     seen, _, details = text.partition("\n\n")
     return _html(seen), _html(details)

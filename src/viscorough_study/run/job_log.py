@@ -55,7 +55,7 @@ def log_to(path, place=""):
     to the file, since the message suffices on stderr. For an interrupt no traceback is written.
 
     place : text before the message of an uncaught exception, which names the rule and the result. Snakemake itself
-        names only a line in a file of rules, which is the same line for all figures.
+        names only a line in a file of rules.
     """
     in_file, on_stderr = logging.FileHandler(path, mode="w", encoding="utf-8"), logging.StreamHandler()
     form = {"format": "%(asctime)s %(levelname)s %(message)s", "datefmt": "%Y-%m-%d %H:%M:%S"}

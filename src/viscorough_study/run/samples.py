@@ -231,6 +231,11 @@ def combined_ensembles(settings):
     return {ensemble["name"]: ensemble for sample in bases for ensemble in sample["ensembles"]}
 
 
+def combinations(settings):
+    """Return {name of a base ensemble: its force [N], viscosity [Pa s], diameter [m], rms height [m]}."""
+    return {name: ensemble["combination"] for name, ensemble in combined_ensembles(settings).items()}
+
+
 def example_discs(settings):
     """Return ensembles that contain only the first disc of each Hurst exponent, scaled to h = L = 1.
 

@@ -38,13 +38,9 @@ class SourceDigests:
         self._known = json.loads(self._kept.read_text()) if self._kept.is_file() else {}
         self._used = {}
 
-    def digest(self, script, *functions):
-        """Return the digest, sixteen hexadecimal digits, of a script and all modules that it uses.
-
-        script : path of the script
-        functions : dotted names of functions that the script imports by name at run time
-        """
-        lines, used, waiting = [], set(), {Path(script)}.union(*(self._files(name.split(".")) for name in functions))
+    def digest(self, script):
+        """Return the digest, sixteen hexadecimal digits, of a script and all modules that it uses; script : its path"""
+        lines, used, waiting = [], set(), {Path(script)}
         while waiting:
             used.add(path := waiting.pop())
             waiting |= self._module(path)[1] - used

@@ -57,25 +57,25 @@ def project(tmp_path):
     return tmp_path
 
 
-def digests(project, *functions):
+def digests(project):
     """Return the digest of each script; results kept by an earlier run must not change it."""
     kept, result = project / ".snakemake/sources.json", []
     for file in (kept, project / "none.json"):
         sources = SourceDigests(project / "src", file)
-        result.append({path.stem: sources.digest(path, *functions) for path in (project / "scripts").glob("*.py")})
+        result.append({path.stem: sources.digest(path) for path in (project / "scripts").glob("*.py")})
         if file == kept:
             sources.keep()
     assert result[0] == result[1]
     return result[0]
 
 
-def changed_by(project, name, old, new, *functions):
-    """Return the scripts whose digest an edit changes; functions : functions that all scripts import by name"""
-    before, path = digests(project, *functions), project / name
+def changed_by(project, name, old, new):
+    """Return the scripts whose digest an edit changes."""
+    before, path = digests(project), project / name
     text = path.read_text()
     assert text.count(old) == 1
     path.write_text(text.replace(old, new))
-    after = digests(project, *functions)
+    after = digests(project)
     return {script for script in before if before[script] != after[script]}
 
 

@@ -57,7 +57,7 @@ def test_truncated_or_changed_table_is_refused(file, change):
     with refused(r"fits\.csv: not readable \(.*\); remove the file, so that the next run makes it again"):
         read_table(file)
     with refused(r"fits\.csv"):
-        load_script("plot").main("a.png", figure="exponent", scaling=str(file))
+        load_script("plot_exponent").main(file, "a.png")
 
 
 def test_missing_texts_are_read_as_requested(tmp_path):

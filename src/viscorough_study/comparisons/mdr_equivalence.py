@@ -17,6 +17,7 @@ from viscorough_study.ensembles.pool import ensembles, select
 from viscorough_study.fits.intervals import described, three_columns, with_interval
 from viscorough_study.fits.mdr_lambda import match_lines
 from viscorough_study.fits.power_law import fit_power_law, in_window, named_windows
+from viscorough_study.run.names import WINDOWS
 
 # Use an X only if at least this fraction of the discs has a value there, which means all discs, within rounding.
 FRACTION_KEPT = 1 - 1e-9
@@ -36,7 +37,6 @@ SUMMARY_COLUMNS = {
     **described("error_whole", "largest error of ln(vt/h) from the start of region (b) to the end of the curve"),
     "realizations": REALIZATIONS,
 }
-WINDOWS = ("own region", "same X", "same κ")
 EXPONENT_COLUMNS = {
     "hurst": ("Hurst exponent H", "1"),
     "window": (

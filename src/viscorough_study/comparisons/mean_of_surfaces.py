@@ -18,9 +18,8 @@ from viscorough.law.calibrated_law import law_covers, penetration_law
 from viscorough.reference import exponent_beta
 from viscorough_study.ensembles.pool import elements_across, ensembles, select
 from viscorough_study.fits.conventions import fits
-from viscorough_study.run.names import GRID, LAW, MDR, MDR_FITTED, MDR_PI, PAPER
+from viscorough_study.run.names import GRID, LAW, MDR, MDR_FITTED, MDR_PI, MEAN_X, PAPER
 
-X = (0.01, 1.0)
 SURFACES = (1, 4, 16, 64, 256)
 # Use the processor times of loading curves with this tolerance. Curves with finer tolerances have the same mean
 # (docs/verification.md).
@@ -65,7 +64,7 @@ def mean_accuracy(discs, coarse, lines, mdr_lambda, scaling, one_surface, *, con
             line = _Mean(reduced[hurst])
             seconds = _line_time(times, float(reduced[hurst]["elements"].values.flat[0]))
             velocity.append((MDR_PI, np.nan, exact.deviation(line), line.scatter, seconds))
-            fitted = mdr_lambda[(mdr_lambda["hurst"] == hurst) & mdr_lambda["x"].between(*X)]
+            fitted = mdr_lambda[(mdr_lambda["hurst"] == hurst) & mdr_lambda["x"].between(*MEAN_X)]
             if len(fitted):
                 deviation = np.sqrt(np.mean(np.log(fitted["velocity_ratio"]) ** 2))
                 velocity.append((MDR_FITTED, np.nan, deviation, line.scatter, seconds))
@@ -74,7 +73,7 @@ def mean_accuracy(discs, coarse, lines, mdr_lambda, scaling, one_surface, *, con
             for model, across, deviation, scatter, seconds in velocity
             for number in SURFACES
         ]
-        here = (x >= X[0]) & (x <= X[1])
+        here = (x >= MEAN_X[0]) & (x <= MEAN_X[1])
         law = penetration_law(hurst).velocity(x[here]) if law_covers(hurst, x[here]) else np.nan
         deviation = np.log(law / truth["velocity_arithmetic"].values[here])
         rows.append((hurst, "velocity", LAW, np.nan, 0, 0.0, _root_mean(deviation**2)))
@@ -89,7 +88,7 @@ class _Mean:
     """Mean and scatter of ln(vt/h) over the surfaces of an ensemble, at the values of X from 0.01 to 1."""
 
     def __init__(self, ensemble):
-        here = (ensemble["x"].values >= X[0] * 0.999) & (ensemble["x"].values <= X[1] * 1.001)
+        here = (ensemble["x"].values >= MEAN_X[0] * 0.999) & (ensemble["x"].values <= MEAN_X[1] * 1.001)
         self.logarithm = np.log(ensemble["velocity_geometric"].values[here])
         self.variance = ensemble["velocity_spread"].values[here] ** 2
         self.number = ensemble["realizations_defined"].values[here]

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from viscorough_study.comparisons.mdr_equivalence import WINDOWS
 from viscorough_study.figures import style
+from viscorough_study.run.names import WINDOWS
 
 _MARKERS = dict(zip(WINDOWS, "oDs", strict=True))
 _SHIFT = 0.02  # distance in H between the markers of different windows at the same Hurst exponent

@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from viscorough_study.comparisons.mean_of_surfaces import X
 from viscorough_study.figures import style
-from viscorough_study.run.names import GRID, LAW, MDR_FITTED, MDR_PI
+from viscorough_study.run.names import GRID, LAW, MDR_FITTED, MDR_PI, MEAN_X
 
 SHOWN = 0.4  # the panel of the mean shows the Hurst exponent nearest to this value
 ERRORS = (0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # ticks of the axis of errors
@@ -54,7 +53,7 @@ def _draw_mean(axes, rows, law):
             axes.plot("processor_s", "error", marker=marker, data=curve, color=style.GREY, markersize=3)
             ends.append((model, curve, style.GREY))
     number, hurst, reference = style.count_text(timed["surfaces"]), *timed[["hurst", "reference_error"]].iloc[0]
-    axes.set_title(f"(a) Mean of {number} surfaces, $H$ = {hurst:g}, $X$ = {X[0]:g} to {X[1]:g}")
+    axes.set_title(f"(a) Mean of {number} surfaces, $H$ = {hurst:g}, $X$ = {MEAN_X[0]:g} to {MEAN_X[1]:g}")
     errors = law["error"].dropna()
     bottom = 0.6 * min(timed["error"].min(), reference, errors.min() if len(errors) else np.inf)
     axes.set(xscale="log", yscale="log", xlabel="processor time (s)", ylabel="error of the mean velocity")

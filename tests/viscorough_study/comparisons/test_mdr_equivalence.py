@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from support.study import LIMITS, ensemble_of
-from viscorough_study.comparisons.mdr_equivalence import TABLES, WINDOWS, compare_ensembles
+from viscorough_study.comparisons.mdr_equivalence import TABLES, compare_ensembles
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.intervals import with_interval
 from viscorough_study.fits.power_law import fit_power_law
+from viscorough_study.run.names import WINDOWS
 
 x = abscissa(1e-7, 30, 20)
 HOW = {"average": "geometric", "stiffness_range": [0.03, 0.3], "resamples": 50, "seed": 1, **LIMITS}

@@ -3,6 +3,7 @@
 
 
 rule indent_surfaces:
+    """Loading curves of a batch of discs, or of a measured surface, by boundary elements."""
     input:
         # These files are temporary and usually missing, but this rule must be rerun when the rule that makes them has
         # changed. If they were marked as ancient, existing files would not cause a rerun, and Snakemake would end
@@ -30,6 +31,7 @@ rule indent_surfaces:
 
 # A line is generated in the same job that reduces it, and not stored: a line of 4 000 000 points takes 16 MB.
 rule reduce_lines:
+    """Loading curves of a batch of lines, by reduction of dimensionality."""
     output:
         curves="results/curves/lines/{line}/{batch}.nc",
     log:
@@ -55,6 +57,7 @@ rule reduce_lines:
 # The same discs on several grids. They are generated in the job that indents them: a disc of 4097 x 4097 elements takes
 # 134 MB.
 rule indent_nested:
+    """Loading curves of a batch of discs on several grids."""
     output:
         curves="results/curves/nested/{nested}/{batch}.nc",
     log:
@@ -77,6 +80,7 @@ rule indent_nested:
 
 
 rule aggregate_curves:
+    """All curves of a pool on common abscissae."""
     input:
         curves=lambda wildcards: samples.pool_curves(SAMPLES, wildcards.pool),
     output:

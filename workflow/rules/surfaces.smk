@@ -5,6 +5,7 @@
 
 
 rule generate_discs:
+    """A batch of discs."""
     output:
         surfaces=temp("results/surfaces/discs/{sample}/{batch}.nc"),
     log:
@@ -27,6 +28,7 @@ rule generate_discs:
 
 
 use rule generate_discs as generate_examples with:
+    """Discs of Figure 1."""
     output:
         surfaces="results/surfaces/examples.nc",
     log:
@@ -46,6 +48,7 @@ use rule generate_discs as generate_examples with:
 
 
 rule prepare_measured:
+    """A measured surface, prepared as the settings say."""
     input:
         # the param `source` shows changes of the content, so the time of the file is ignored
         heights=ancient(scan_value("file")),

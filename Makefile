@@ -170,7 +170,7 @@ large: environment
 	$(BIN)/python benchmarks/large_discs.py --cores $(CORES) --output results/tables/large.csv
 
 publish: environment
-	$(BIN)/python benchmarks/publish.py --command reproduce
+	$(BIN)/python benchmarks/publish.py --verdicts regions
 
 test-slurm: environment-slurm
 	$(BIN)/python benchmarks/slurm.py --output results/slurm.json

@@ -1,8 +1,8 @@
 """Copy figures, claims and the table of verdicts from results into the project.
 
-    python benchmarks/publish.py --command reproduce
+    python benchmarks/publish.py --verdicts regions
 
-Name the commands of make whose results are in the folder: some of the files also exist at a smaller scale.
+Name only figures at the scale to be published: `make reproduce` also makes `speed` and `failures`, at a smaller scale.
 """
 
 from pathlib import Path
@@ -13,14 +13,6 @@ from PIL import Image  # matplotlib depends on it
 from viscorough_study.run.tables import split_table
 
 ROOT = Path(__file__).resolve().parents[1]
-# {command of make: figures that it makes and that the pages or the page of the results show}
-FIGURES = {
-    "reproduce": ("regions",),
-    "beyond": ("interface", "reduction", "media", "histories"),
-    "speed": ("speed",),
-    "stability": ("failures",),
-    "fine-grids": ("local_exponent",),
-}
 
 
 def copy_figure(file, target):
@@ -33,10 +25,11 @@ def copy_figure(file, target):
 
 @click.command(help=__doc__.splitlines()[0])
 @click.option("--results", type=click.Path(path_type=Path), default=ROOT / "results", show_default=True)
-@click.option("--command", "commands", type=click.Choice(list(FIGURES)), multiple=True, default=["reproduce"])
-def main(results, commands):
-    figures = [results / f"figures/{name}.png" for command in commands for name in FIGURES[command]]
-    verdicts = [results / f"tables/claims{suffix}" for suffix in (".csv", ".md")] if "reproduce" in commands else []
+@click.option("--verdicts", is_flag=True, help="Copy the claims and the table of verdicts, too.")
+@click.argument("figures", nargs=-1, required=True)
+def main(results, verdicts, figures):
+    figures = [results / f"figures/{name}.png" for name in figures]
+    verdicts = [results / f"tables/claims{suffix}" for suffix in (".csv", ".md")] if verdicts else []
     for file in (*figures, *verdicts):
         if not file.is_file():
             raise click.ClickException(f"no {file}; make it first, then publish all results together")

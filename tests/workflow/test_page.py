@@ -114,12 +114,12 @@ def test_every_number_is_in_a_table(page, tables):
         assert abs(number - value) <= 1.001 * half_a_digit, (place, text)
 
 
-def test_tooltip_of_every_number_names_its_rule_and_the_script(page):
+def test_tooltip_of_every_number_names_its_rule_whose_script_has_the_same_name(page):
     for _, place, _ in page.numbers:
-        table, rule, script = re.fullmatch(r"results/tables/(\w+)\.csv, .+; rule (\w+), (\S+)", place["title"]).groups()
+        table, rule = re.fullmatch(r"results/tables/(\w+)\.csv, .+; rule (\w+)", place["title"]).groups()
         assert table == place["data-table"]
         assert rule == TABLES[table]
-        assert (ROOT / script).is_file()
+        assert (ROOT / f"workflow/scripts/{rule}.py").is_file()
 
 
 def test_page_marks_a_trial_run_and_shows_no_raw_values(page):

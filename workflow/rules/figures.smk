@@ -362,26 +362,6 @@ rule plot_measured:
 # ---- targets
 
 
-rule figures:
-    """The figures of the page, except the figure of measured surfaces."""
-    input:
-        expand(
-            "results/figures/{figure}.png",
-            figure=[
-                "fig1_surfaces",
-                "fig2_kinetics",
-                "fig3_master_curve",
-                "fig4_exponent",
-                "regions",
-                "direct",
-                "mdr_lambda",
-                "validation",
-                "speed",
-                "failures",
-            ],
-        ),
-
-
 rule figure_1:
     """Figure 1 of the paper: surfaces."""
     input:

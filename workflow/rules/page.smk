@@ -1,44 +1,6 @@
 # The page of the results, which is the last output of `all`. It uses results only.
 
 
-rule tables:
-    """All tables, except those of measured surfaces."""
-    input:
-        expand(
-            "results/tables/{table}.csv",
-            table=[
-                "scaling",
-                "mdr_lambda",
-                "mdr_summary",
-                "mdr_exponents",
-                "claims",
-                "validation",
-                "direct",
-                "local_slope",
-                "zeta_laws",
-                "methods",
-                "one_surface",
-                "mean_accuracy",
-                "sufficient_models",
-                "failures",
-            ],
-        ),
-
-
-rule measured:
-    """Tables and figures of the measured surfaces that the settings name."""
-    input:
-        [
-            "results/tables/measured_contacts.csv",
-            "results/tables/measured_scans.csv",
-            "results/tables/measured_fits.csv",
-            "results/tables/measured_kinetics.csv",
-            "results/figures/measured.png",
-        ]
-        if MEASURED
-        else [],
-
-
 # Figures of the page; workflow/page/figures.yaml describes them for readers who cannot see them.
 PAGE_FIGURES = [
     "fig1_surfaces",
@@ -52,22 +14,14 @@ PAGE_FIGURES = [
     "speed",
     "failures",
 ]
-# {table whose numbers the page states: rule that makes the table}
-PAGE_TABLES = {
-    "claims": "judge_claims",
-    "scaling": "fit_scaling",
-    "methods": "measure_methods",
-    "one_surface": "measure_one_surface",
-    "failures": "map_failures",
-    "sufficient_models": "choose_sufficient_models",
-}
+# Tables whose numbers the page states.
+PAGE_TABLES = ["claims", "scaling", "methods", "one_surface", "failures", "sufficient_models"]
 if MEASURED:
     PAGE_FIGURES.append("measured")
-    PAGE_TABLES["measured_scans"] = "evaluate_measured"
-    PAGE_TABLES["measured_contacts"] = "solve_measured_contacts"
-    PAGE_TABLES["measured_fits"] = "evaluate_measured"
-# Figures of `beyond`, of which the page shows published pictures.
+    PAGE_TABLES += ["measured_scans", "measured_contacts", "measured_fits"]
 BEYOND_FIGURES = ["interface", "reduction", "media", "histories"]
+# {figure in docs/results that the page shows without drawing it: command that draws it}
+PUBLISHED_FIGURES = {"local_exponent": "make fine-grids"} | dict.fromkeys(BEYOND_FIGURES, "make beyond")
 # Further files that the page shows or quotes.
 PAGE_TEXTS = [
     *sorted(path for path in (WORKFLOW / "page").rglob("*") if path.is_file()),
@@ -76,7 +30,7 @@ PAGE_TEXTS = [
     PROJECT / "resources/published/other_solvers.csv",
     PROJECT / "resources/published/second_solver.csv",
     PROJECT / "resources/published/default_run.yaml",
-    *(PROJECT / f"docs/results/{figure}.png" for figure in ("local_exponent", *BEYOND_FIGURES)),
+    *(PROJECT / f"docs/results/{figure}.png" for figure in PUBLISHED_FIGURES),
     PROJECT / "docs/rules.png",
 ]
 
@@ -106,9 +60,9 @@ rule make_page:
         mem_mb=1000,
     params:
         numbers=paper("numbers"),
-        combinations={name: ensemble["combination"] for name, ensemble in samples.combined_ensembles(config).items()},
+        combinations=samples.combinations(config),
         fraction_min=config["scaling"]["fraction_min"],
-        made_by=PAGE_TABLES,
+        published=PUBLISHED_FIGURES,
         changed=changed_settings(check_settings(read_yaml("config/config.yaml")), config),
         files=[path_shown(path) for path in SETTINGS_FILES],
         source=[digest("make_page"), *text_digests(PAGE_TEXTS)],
@@ -116,3 +70,26 @@ rule make_page:
         "The page of the results"
     script:
         "../scripts/make_page.py"
+
+
+# ---- targets
+
+
+rule figures:
+    """The figures of the page."""
+    input:
+        expand("results/figures/{figure}.png", figure=PAGE_FIGURES),
+
+
+rule measured:
+    """Tables and figures of the measured surfaces that the settings name."""
+    input:
+        [
+            "results/tables/measured_contacts.csv",
+            "results/tables/measured_scans.csv",
+            "results/tables/measured_fits.csv",
+            "results/tables/measured_kinetics.csv",
+            "results/figures/measured.png",
+        ]
+        if MEASURED
+        else [],

@@ -17,29 +17,25 @@ from viscorough_study.run.readable import readable
 from viscorough_study.run.tables import split_table
 from viscorough_study.verdicts.claim import KINDS
 
-# {picture in docs/results/ that the page shows without drawing it: command that draws it}
-PUBLISHED_PICTURES = {"local_exponent": "make fine-grids"} | dict.fromkeys(
-    ("interface", "reduction", "media", "histories"), "make beyond"
-)
 
-
-def page_of(project, discs, figures, *, combinations, fraction_min, **run):
+def page_of(project, discs, figures, *, published, combinations, fraction_min, **run):
     """Return the HTML of the page.
 
     project : folder of the project, which contains templates, captions, published numbers, and the picture of the rules
     discs : NetCDF file with the loading curves of all discs of the run (ensembles.pool)
     figures : paths of the figures; the name of a file without suffix is the name of the figure
+    published : {figure in docs/results that the page shows, too: command that draws it}
     combinations : {name of the ensemble: force [N], viscosity [Pa s], diameter [m], rms [m]}
     fraction_min : least share of the realizations behind a mean of the interactive Figure 2
     run : further arguments of `contents_of`
     """
     folder, figures = project / "workflow/page", {Path(path).stem: path for path in figures}
-    figures |= {name: project / "docs/results" / f"{name}.png" for name in PUBLISHED_PICTURES}
+    figures |= {name: project / "docs/results" / f"{name}.png" for name in published}
     captions = {name: project / f"workflow/report/figures/{name}.rst" for name in figures}
     template, style = ((folder / name).read_text("utf-8") for name in ("page.html.jinja", "style.css"))
     contents = contents_of(project, discs, **run)
     parts = {
-        "published_pictures": PUBLISHED_PICTURES,
+        "published": published,
         "alternative": yaml.safe_load((folder / "figures.yaml").read_text("utf-8")),
         "calculator": calculator(folder),
         "chart": chart(folder, discs, combinations, contents["conventions"], fraction_min),
@@ -50,20 +46,19 @@ def page_of(project, discs, figures, *, combinations, fraction_min, **run):
     return render(template, style, figures, captions, **parts, **contents)
 
 
-def contents_of(project, discs, lines, *, tables, numbers, made_by, changed, files):
+def contents_of(project, discs, lines, *, tables, numbers, changed, files):
     """Return the variables for the template of the page, {name: content}.
 
     project : folder of the project, which contains published numbers
     discs, lines : NetCDF files with the loading curves of all discs and of all lines of the run (ensembles.pool)
     tables : paths of CSV files; a table has the name of its file without the suffix
     numbers : content of resources/paper/numbers.yaml
-    made_by : {name of a table: Snakemake rule that made it}
     changed : {setting: (value, default value)} of all settings of the run that are not the default
     files : settings files of the run
     """
     tables = {Path(path).stem: path for path in tables}
-    results = read_results(tables, made_by)
-    conventions = results.settings["claims"]["conventions"]
+    results = read_results(tables)
+    conventions = results.made_with["claims"]["settings"]["conventions"]
     claims = content.claims(results)
     texts = yaml.safe_load((project / "workflow/page/in_short.yaml").read_text("utf-8"))
     return {

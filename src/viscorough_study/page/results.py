@@ -1,10 +1,10 @@
 """Read tables of results for the page, and keep numbers together with their place in a table.
 
 Every number that the page states in a sentence is a `Number`. The page contains, for each Number, its place in a table,
-and the Snakemake rule that made the table, with its script. A reader or a test can look these up.
+and the Snakemake rule that made the table. A reader or a test can look these up.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from viscorough_study.run.tables import read_table, split_table
 
@@ -23,7 +23,7 @@ class Number:
     table, column : names of the table and of the column
     row : row of the cell, counted from 0 without the header; None for a number of rows
     counted : for a number of rows, the value that these rows have in the column; otherwise None
-    origin : text that names the Snakemake rule that made the table, and its script
+    origin : text that names the Snakemake rule that made the table
     """
 
     value: float
@@ -51,16 +51,14 @@ class Number:
 
 @dataclass(frozen=True)
 class Results:
-    """The tables of a run, with the settings and the rules that made them.
+    """The tables of a run, with the records of the jobs that made them.
 
     tables : {name: pandas.DataFrame}, indexed by the row of the CSV file
-    settings : {name of a table: its recorded settings}; the settings are empty if none were recorded
-    made_by : {name of a table: Snakemake rule that made it}; some tables have no entry
+    made_with : {name of a table: record of its job (run.made_with)}
     """
 
     tables: dict
-    settings: dict
-    made_by: dict = field(default_factory=dict)
+    made_with: dict
 
     def rows(self, table, **chosen):
         """Return the rows of a table that have, in each column named in `chosen`, the given value."""
@@ -95,21 +93,15 @@ class Results:
         return Number(number, table, column, counted=counted, origin=self.origin(table))
 
     def origin(self, table):
-        """Return a text that names the rule that made a table, and its script; empty if the rule is unknown."""
-        rule = self.made_by.get(table)
-        return f"rule {rule}, workflow/scripts/{rule}.py" if rule else ""
+        """Return a text that names the rule that made a table."""
+        return f"rule {self.made_with[table]['rule']}"
 
 
-def read_results(tables, made_by):
-    """Read the Results of a run: tables and their settings.
-
-    tables : {name: path of the CSV file}
-    made_by : {name of a table: Snakemake rule that made it}
-    """
-    headers = {name: split_table(path)[0] for name, path in tables.items()}
-    settings = {name: header.get("made_with", {}).get("settings", {}) for name, header in headers.items()}
+def read_results(tables):
+    """Read the Results of a run; tables : {name: path of the CSV file}"""
+    made_with = {name: split_table(path)[0]["made_with"] for name, path in tables.items()}
     read = {name: read_table(path, **_ONLY_EMPTY_IS_MISSING) for name, path in tables.items()}
-    return Results({name: _with_empty_texts(table) for name, table in read.items()}, settings, made_by)
+    return Results({name: _with_empty_texts(table) for name, table in read.items()}, made_with)
 
 
 def _with_empty_texts(table):

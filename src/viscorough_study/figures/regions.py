@@ -4,12 +4,13 @@ import numpy as np
 
 from viscorough.reference import exponent_beta
 from viscorough_study.figures import style
+from viscorough_study.fits.conventions import CONTROL
 from viscorough_study.fits.power_law import in_window, inner_slopes
 from viscorough_study.verdicts.curves import SLOPES_OF_LINE, start_of_line
 
 WINDOW = 0.25  # the local slope is fitted over ± this many decades of X
 DASHED = {"linestyle": "--", "linewidth": 0.8}
-CONTROL = {"linestyle": ":", "linewidth": 1.6}
+DOTTED = {"linestyle": ":", "linewidth": 1.6}
 
 
 @style.figure
@@ -40,10 +41,10 @@ def plot_regions(discs, controls, local_slope, *, fraction_min):
     for ensemble in controls:
         hurst = ensemble["hurst"].item()
         x, slopes = _slopes(ensemble, fraction_min)
-        rows = local_slope.query("group not in ('base', 'longer_period') and hurst == @hurst")
+        rows = local_slope[(local_slope["group"] == CONTROL) & (local_slope["hurst"] == hurst)]
         for row in rows.dropna(subset="x_low").itertuples():
             inside = in_window(x, (row.x_low, row.x_high))
-            slope.plot(x[inside], slopes[inside], color=looks[hurst]["color"], **CONTROL)
+            slope.plot(x[inside], slopes[inside], color=looks[hurst]["color"], **DOTTED)
     slope.set(xscale="log", xlim=(1e-6, None), ylim=(0, 1.1), title="(a) local slope of $vt/h$ over $X$", xlabel="$X$")
     contact.set(
         xscale="log", xlim=(1e-2, None), ylim=(0, 1), title="(b) share of the elements in contact", xlabel="$X$"
@@ -52,7 +53,7 @@ def plot_regions(discs, controls, local_slope, *, fraction_min):
         *style.hurst_handles(looks, linestyle="-", marker=""),
         style.handle("region (b)", color=style.GREY, linewidth=2.2),
         style.handle("$H/(1+H)$", color=style.GREY, **DASHED),
-        style.handle("no long waves", color=style.GREY, **CONTROL),
+        style.handle("no long waves", color=style.GREY, **DOTTED),
         *(
             style.handle(f"slope 1 within {deviation:g}", color=style.GREY, linestyle="", marker="o", **face)
             for deviation, face in zip(SLOPES_OF_LINE, FACES, strict=True)

@@ -143,7 +143,7 @@ def _states_at_depths(solver: ContactSolver, depths: Array, progress: Progress) 
     last: ContactState = solver.unloaded_state()
     for number, depth in enumerate(depths, 1):
         last = solver.advance(last, depth)
-        yield solver.settled(last, last.reduced_depth, last.pressure_sum)
+        yield solver.extrapolate(last, last.reduced_depth, last.pressure_sum)
         progress(number / depths.size)
 
 

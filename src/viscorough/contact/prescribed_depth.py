@@ -143,7 +143,7 @@ class ContactSolver:
             return dense.solve_highest_element(self.elements, depth)
         return self.advance_reduced(self.unloaded_state(), depth)
 
-    def settled(self, contact: ContactState, depth: float, pressure_sum: float) -> ContactState:
+    def extrapolate(self, contact: ContactState, depth: float, pressure_sum: float) -> ContactState:
         """Extrapolate the contact along its tangent to a nearby depth, and rescale its pressures to the given sum.
 
         The residual of the returned contact may be up to twice the tolerance. It includes a bound on the overlap of
@@ -155,8 +155,9 @@ class ContactSolver:
         """
         if not isinstance(contact, GridContact) or self._grid is None:
             return replace(contact, reduced_depth=depth, pressure_sum=pressure_sum)
-        settled = self._grid.settled(contact, depth, pressure_sum)
-        return replace(settled, residual=max(settled.residual, 1 - self.elements.next_gap(self._reach) / depth))
+        extrapolated = self._grid.extrapolate(contact, depth, pressure_sum)
+        overlap = 1 - self.elements.next_gap(self._reach) / depth
+        return replace(extrapolated, residual=max(extrapolated.residual, overlap))
 
     def advance(self, contact: ContactState, depth: float) -> ContactState:
         """Solve the contact at a depth [length] larger than the depth of `contact`.

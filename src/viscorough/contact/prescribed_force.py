@@ -196,9 +196,9 @@ class ForceSearch:
             self._tighten_bracket(contact, target)
             if self._is_near(contact, other, target):
                 depth = contact.reduced_depth + (target - contact.pressure_sum) / contact.tangent_sum
-                settled = self._solver.settled(contact, depth, target)
-                if settled.residual <= 2 * self._solver.tolerance:
-                    return settled
+                extrapolated = self._solver.extrapolate(contact, depth, target)
+                if extrapolated.residual <= 2 * self._solver.tolerance:
+                    return extrapolated
         most = self._solver.options.max_depths
         raise ConvergenceError(
             f"contact at F/G = {force:g}: the force is not met within {most} depths; choose a larger tolerance"
@@ -224,7 +224,7 @@ class ForceSearch:
             # Only the highest elements are in contact: the curve is straight.
             depth = self._first.reduced_depth * (target / self._first.pressure_sum)
             contact = self._solver.advance_reduced(self._solver.unloaded_state(), depth)
-            return self._solver.settled(contact, depth, target)
+            return self._solver.extrapolate(contact, depth, target)
         if self._below.count and self._above:
             return None
         return self._follow_events(target)
@@ -348,7 +348,7 @@ class ForceSearch:
         other : second contact, used to estimate the change of the stiffness with depth
         """
         distance = abs(target - contact.pressure_sum) / contact.tangent_sum
-        if isinstance(contact, DenseContact):  # `settled` cannot extrapolate a DenseContact to another depth
+        if isinstance(contact, DenseContact):  # `extrapolate` moves no DenseContact to another depth
             return distance <= ROUNDING * contact.reduced_depth
         width = max(abs(contact.reduced_depth - other.reduced_depth), _TINY)
         change = abs(contact.tangent_sum - other.tangent_sum) / width * distance

@@ -122,7 +122,7 @@ def test_whole_curve_ends_at_complete_contact(route, indenter, decade):
     np.testing.assert_allclose(curve.force[-1], end.stiffness * (curve.depth[-1] - end.mean_gap), rtol=0.1 * tolerance)
 
 
-@pytest.mark.filterwarnings("ignore:contact_at. contact is complete")
+@pytest.mark.filterwarnings("ignore:contact is complete")
 @both_routes
 @given(indenters | long_strips, decades, st.floats(0, 1))
 @some

@@ -201,7 +201,7 @@ class GridSolver:
         inside[place] = True
         return TrialContact(pressure, change, inside, depth)
 
-    def settled(self, contact: GridContact, depth: float, pressure_sum: float) -> GridContact:
+    def extrapolate(self, contact: GridContact, depth: float, pressure_sum: float) -> GridContact:
         """Extrapolate the contact along its tangent to a nearby depth, and rescale its pressures to the given sum.
 
         The extrapolation adds c q to the pressures, with a number c. This adds c to the gap in contact, since K q = 1.
@@ -221,8 +221,8 @@ class GridSolver:
         inside[places] = loads > 0
         change = grid.gap_change(pressure, depth)
         fields = replace(fields, inside=inside, pressure=pressure, gap_change=change)
-        settled = self._contact(depth, fields, grid.contact_set(inside))
-        return replace(settled, pressure_sum=pressure_sum, tangent_sum=contact.tangent_sum)
+        extrapolated = self._contact(depth, fields, grid.contact_set(inside))
+        return replace(extrapolated, pressure_sum=pressure_sum, tangent_sum=contact.tangent_sum)
 
     def solve_flat_punch(self, inside: Mask, tangent: Array, tangent_gap: Array) -> float:
         """Solve K q = 1 on a contact set by iteration, starting from a given q; return the sum Σq.

@@ -13,6 +13,7 @@ from viscorough_study.page.render import embedded_png, render
 from viscorough_study.page.results import read_results
 from viscorough_study.robustness.outcomes import VERDICTS as OUTCOMES
 from viscorough_study.run.made_with import all_versions, read_record
+from viscorough_study.run.names import SHOWN
 from viscorough_study.run.readable import readable
 from viscorough_study.run.tables import split_table
 from viscorough_study.verdicts.claim import KINDS
@@ -38,7 +39,7 @@ def page_of(project, discs, figures, *, published, combinations, fraction_min, *
         "published": published,
         "alternative": yaml.safe_load((folder / "figures.yaml").read_text("utf-8")),
         "calculator": calculator(folder),
-        "chart": chart(folder, discs, combinations, contents["conventions"], fraction_min),
+        "chart": chart(folder, discs, combinations, SHOWN, fraction_min),
         "origin": Markup((folder / "origin.js").read_text("utf-8")),
         "sketch": Markup((folder / "sketch.svg").read_text("utf-8")),
         "rules": embedded_png((project / "docs/rules.png").read_bytes()),
@@ -58,12 +59,11 @@ def contents_of(project, discs, lines, *, tables, numbers, changed, files):
     """
     tables = {Path(path).stem: path for path in tables}
     results = read_results(tables)
-    conventions = results.made_with["claims"]["settings"]["conventions"]
     claims = content.claims(results)
     texts = yaml.safe_load((project / "workflow/page/in_short.yaml").read_text("utf-8"))
     return {
         "results": results,
-        "conventions": conventions,
+        "conventions": SHOWN,
         "readable": readable,
         "scale": content.scale(discs, lines, numbers),
         "claims": claims,
@@ -81,7 +81,7 @@ def contents_of(project, discs, lines, *, tables, numbers, changed, files):
         "outcomes": OUTCOMES,
         "other": content.other_solvers(project / "resources/published/other_solvers.csv"),
         "second": content.second_solver(project / "resources/published/second_solver.csv"),
-        "measured": content.measured(results, conventions),
+        "measured": content.measured(results, SHOWN),
         "changed": {name: [content.as_yaml(value) for value in pair] for name, pair in changed.items()},
         "files": files,
         "versions": all_versions(map(read_record, [discs, lines, *tables.values()])),

@@ -46,7 +46,7 @@ def render(template, style, figures, captions, *, conventions, **content):
         "caption": {name: caption(Path(path).read_text("utf-8"), conventions) for name, path in captions.items()},
         "style": Markup(style),
     }
-    return symbols(environment.from_string(template).render(content))
+    return symbols(environment.from_string(template).render(content, conventions=conventions))
 
 
 def symbols(html):

@@ -13,13 +13,23 @@ Modules that take long to import are imported only by the commands that need the
 import os
 import sys
 import warnings
-from importlib import import_module
 
 import click
 from click.shell_completion import shell_complete
 
 from viscorough.basics.errors import ConvergenceError
-from viscorough.cli import messages, options
+from viscorough.cli import (
+    contact,
+    estimate,
+    generate,
+    indent,
+    kinetics,
+    march,
+    messages,
+    options,
+    plot,
+    reduce,
+)
 
 # Name, fixed by click, of the environment variable that the shell sets when it asks for completions.
 _COMPLETE = "_VISCOROUGH_COMPLETE"
@@ -46,8 +56,17 @@ def cli(context: click.Context) -> None:
         click.echo(context.get_help())
 
 
-for _name in ("indent", "contact", "kinetics", "march", "reduce", "generate", "estimate", "plot"):
-    cli.add_command(getattr(import_module(f"{__name__}.{_name}"), _name))
+for _command in (
+    indent.indent,
+    contact.contact,
+    kinetics.kinetics,
+    march.march,
+    reduce.reduce,
+    generate.generate,
+    estimate.estimate,
+    plot.plot,
+):
+    cli.add_command(_command)
 
 
 def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int:

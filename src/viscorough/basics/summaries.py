@@ -29,6 +29,8 @@ class InNotebooks:
 
 # Units of length in which results are shown, the largest first: {spelling: metres}.
 METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
+# SI units of results that contain a length: {unit: power of the length}.
+LENGTH_POWERS = {"m": 1, "m2": 2, "m s-1": 1}
 
 
 def shown_unit(largest: float, unit: str) -> tuple[str, float]:
@@ -36,11 +38,11 @@ def shown_unit(largest: float, unit: str) -> tuple[str, float]:
 
     A unit of metres is replaced by the first unit of METRES that is not larger than the quantity, or by its power.
 
-    largest : largest value of the quantity; unit : its unit, of which m, m2 and m s-1 may be replaced
+    largest : largest value of the quantity; unit : its unit, which is replaced if it is in LENGTH_POWERS
     """
-    if unit not in ("m", "m2", "m s-1"):
+    if unit not in LENGTH_POWERS:
         return unit, 1.0
-    sizes = [(f"{name}{unit[1:]}", size**2 if unit == "m2" else size) for name, size in METRES.items()]
+    sizes = [(f"{name}{unit[1:]}", size ** LENGTH_POWERS[unit]) for name, size in METRES.items()]
     return next((each for each in sizes if abs(largest) >= each[1]), sizes[-1])
 
 

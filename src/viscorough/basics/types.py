@@ -14,7 +14,6 @@ Complex = NDArray[np.complexfloating[Any, Any]]
 Seed = int | Sequence[int] | np.random.SeedSequence
 Numbers = float | Array  # a number or an array of numbers, as argument or result of a formula
 Scalar = float | np.floating[Any]
-FloatType = type[np.floating[Any]] | np.dtype[Any] | str  # floating-point type, such as numpy.float32 or "float64"
 Several = Sequence[Any] | NDArray[Any]  # several numbers
 Pair = tuple[Array, Array] | tuple[float, float]  # values at both ends of an interval
 FilePath = str | os.PathLike[str]

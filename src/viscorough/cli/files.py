@@ -11,7 +11,7 @@ import click
 
 import viscorough
 from viscorough.basics import units
-from viscorough.basics.summaries import unit_power
+from viscorough.basics.summaries import LENGTH_POWERS, unit_power
 from viscorough.basics.units import Quantity
 from viscorough.cli import messages
 
@@ -145,16 +145,12 @@ def with_lengths_in(variables: Variables, length_unit: str) -> dict[str, Any]:
     converted = {}
     for name, (dimensions, values, about) in variables.items():
         unit = about.get("units")
-        if unit in _POWERS_OF_LENGTH:
-            power = _POWERS_OF_LENGTH[unit]
+        if unit in LENGTH_POWERS:
+            power = LENGTH_POWERS[unit]
             values = in_unit(values, length_unit, power)
             about = about | {"units": unit_power(length_unit, power) + (" s-1" if unit == "m s-1" else "")}
         converted[name] = dimensions, values, about
     return converted
-
-
-# SI units of the variables that are converted to the unit of the user's surface: {unit: power of the length}.
-_POWERS_OF_LENGTH = {"m": 1, "m2": 2, "m s-1": 1}
 
 
 def in_unit(metres: Any, length_unit: str, power: int = 1) -> Any:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from viscorough.basics import units
-from viscorough.basics.summaries import si_unit, unit_power
+from viscorough.basics.summaries import LENGTH_POWERS, si_unit, unit_power
 from viscorough.basics.types import Array
 from viscorough.io.netcdf import Content
 from viscorough.results.loading_curve import LoadingCurve
@@ -39,8 +39,6 @@ ABOUT_GRID = {
 }
 # Additional variables of a curve or contact, if the shear modulus is given: {name: (long_name, SI unit)}.
 WITH_MODULUS = {"normal_force": ("normal force F", "N"), "normal_stiffness": ("normal stiffness k = dF/du", "N m-1")}
-# {SI unit: power of the length}
-_POWERS = {"1": 0, "m": 1, "m2": 2}
 # Variables that are fields of LoadingCurve. The contact fraction is no field: it follows from the contact count.
 STORED = [name for name in OVER_LEVELS if name != "contact_fraction"]
 # Global attributes of every curve: {name: (type, long_name)}.
@@ -113,7 +111,7 @@ def curve_from_content(content: Content) -> LoadingCurve:
     if unit not in ("m", units.UNKNOWN):
         metres = units.metres(unit)
         for name in ("depth", "force", "stiffness"):
-            fields[name] = fields[name] * metres ** _POWERS[OVER_LEVELS[name][1]]
+            fields[name] = fields[name] * metres ** LENGTH_POWERS[OVER_LEVELS[name][1]]
     curve = LoadingCurve(**fields, length_unit=units.UNKNOWN if unit == units.UNKNOWN else "m")
     _check_contact(curve)
     if fraction is not None and not np.allclose(fraction, curve.contact_fraction, rtol=_ROUNDING, atol=0):
@@ -132,7 +130,7 @@ def length_unit_of(content: Content) -> str:
     if length != units.UNKNOWN:
         units.metres(str(length))  # raises ValueError unless this is a unit of length
     for name, (_, unit) in (OVER_LEVELS | ABOUT_GRID).items():
-        needed = unit_power(length, _POWERS[unit])
+        needed = unit_power(length, LENGTH_POWERS.get(unit, 0))
         if stated.get(name, needed) != needed:
             raise ValueError(f"{name} is in {stated[name]!r} and depth in {length!r}; {needed!r} is needed for {name}")
     if (attribute := attributes.get("length_unit", length)) != length:

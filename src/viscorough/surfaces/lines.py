@@ -21,7 +21,7 @@ from numpy.typing import DTypeLike
 
 from viscorough.basics import memory
 from viscorough.basics.arrays import positive, whole_number
-from viscorough.basics.types import Array, FloatType, Integers, Seed
+from viscorough.basics.types import Array, Integers, Seed
 from viscorough.surfaces import line_waves, spectrum
 from viscorough.surfaces.indenter import Indenter
 
@@ -46,7 +46,7 @@ def self_affine_line(
     amplitudes: str = "random",
     length_unit: str = "1",
     seed: Seed,
-    dtype: FloatType = np.float32,
+    dtype: DTypeLike = np.float32,
 ) -> Indenter:
     """Generate a periodic self-affine line for the method of dimensionality reduction (MDR).
 

@@ -63,18 +63,6 @@ def with_unit(value: float, unit: str = "1", digits: int = 4) -> str:
     return f"{float(value) / size:.{digits}g}{'' if unit == '1' else f' {unit}'}"
 
 
-def unit_power(unit: str, exponent: int) -> str:
-    """Return a power of a unit of length in the spelling of UDUNITS, such as m2 or (1e-6 m)2.
-
-    Return "1" if the unit is "1" or the exponent is 0.
-    """
-    if unit == "1" or exponent == 0:
-        return "1"
-    if exponent == 1:
-        return unit
-    return f"{unit if unit.isascii() and unit.isalpha() else f'({unit})'}{exponent}"
-
-
 def si_unit(unit: str, length_unit: str) -> str:
     """Return the SI unit `unit`, or "1" if the unit of length is not known, because the user then chooses all units."""
     return "1" if length_unit == "1" else unit

@@ -13,7 +13,7 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-from viscorough.basics.summaries import METRES
+from viscorough.basics.summaries import LENGTH_POWERS, METRES
 
 UNKNOWN = "1"
 # These patterns are compiled at their first use, so that the command line starts faster.
@@ -115,6 +115,19 @@ def length_unit(text: str) -> str:
         raise ValueError(f"unit {text!r}: not a unit of length, such as um, nm or m")
     metres = _rounded(unit.to_base_units().magnitude)
     return next((spelling for spelling, length in METRES.items() if length == metres), f"{metres!r} m")
+
+
+def with_length(unit: str, length: str) -> str:
+    """Return an SI unit in which another unit of length replaces the metre, as results spell it: "um2", "(1e-6 m)2".
+
+    A unit without a length is returned unchanged, and "1" if the unit of length is "1".
+    """
+    if unit not in LENGTH_POWERS:
+        return unit
+    if length == UNKNOWN:
+        return UNKNOWN
+    in_brackets = LENGTH_POWERS[unit] > 1 and not (length.isascii() and length.isalpha())
+    return (f"({length})" if in_brackets else length) + unit.removeprefix("m")
 
 
 def is_length(text: str) -> bool:

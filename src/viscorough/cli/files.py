@@ -11,7 +11,7 @@ import click
 
 import viscorough
 from viscorough.basics import units
-from viscorough.basics.summaries import LENGTH_POWERS, unit_power
+from viscorough.basics.summaries import LENGTH_POWERS
 from viscorough.basics.units import Quantity
 from viscorough.cli import messages
 
@@ -146,9 +146,8 @@ def with_lengths_in(variables: Variables, length_unit: str) -> dict[str, Any]:
     for name, (dimensions, values, about) in variables.items():
         unit = about.get("units")
         if unit in LENGTH_POWERS:
-            power = LENGTH_POWERS[unit]
-            values = in_unit(values, length_unit, power)
-            about = about | {"units": unit_power(length_unit, power) + (" s-1" if unit == "m s-1" else "")}
+            values = in_unit(values, length_unit, LENGTH_POWERS[unit])
+            about = about | {"units": units.with_length(unit, length_unit)}
         converted[name] = dimensions, values, about
     return converted
 

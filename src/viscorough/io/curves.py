@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from viscorough.basics import units
-from viscorough.basics.summaries import LENGTH_POWERS, si_unit, unit_power
+from viscorough.basics.summaries import LENGTH_POWERS, si_unit
 from viscorough.basics.types import Array
 from viscorough.io.netcdf import Content
 from viscorough.results.loading_curve import LoadingCurve
@@ -130,7 +130,7 @@ def length_unit_of(content: Content) -> str:
     if length != units.UNKNOWN:
         units.metres(str(length))  # raises ValueError unless this is a unit of length
     for name, (_, unit) in (OVER_LEVELS | ABOUT_GRID).items():
-        needed = unit_power(length, LENGTH_POWERS.get(unit, 0))
+        needed = units.with_length(unit, length)
         if stated.get(name, needed) != needed:
             raise ValueError(f"{name} is in {stated[name]!r} and depth in {length!r}; {needed!r} is needed for {name}")
     if (attribute := attributes.get("length_unit", length)) != length:

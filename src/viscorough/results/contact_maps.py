@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from viscorough.basics.arrays import real_number
-from viscorough.basics.summaries import InNotebooks, span, unit_power, with_unit
+from viscorough.basics.summaries import InNotebooks, si_unit, span, with_unit
 from viscorough.basics.types import Mask
 
 # The area of the elements in contact is too large, because elements at the edge of the contact are counted as a whole.
@@ -99,7 +99,7 @@ class Contact(InNotebooks):
 
     def __repr__(self) -> str:
         """Return a summary: number of elements in contact, depth, force, stiffness, contact area and pressure."""
-        unit, area = self.length_unit, unit_power(self.length_unit, 2)
+        unit, area = self.length_unit, si_unit("m2", self.length_unit)
         return (
             f"Contact of {self.contact_count} of {self.elements} elements\n"
             f"depth u {with_unit(self.depth, unit)}, force F/G {with_unit(self.force, area)}, "

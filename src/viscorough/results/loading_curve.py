@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscorough.basics.arrays import increasing, real_numbers
-from viscorough.basics.summaries import InNotebooks, span, unit_power
+from viscorough.basics.summaries import InNotebooks, si_unit, span
 from viscorough.basics.types import Array, Integers, Pair
 
 # Allowed relative rounding error of forces and depths.
@@ -133,7 +133,7 @@ class LoadingCurve(InNotebooks):
         unit, levels = self.length_unit, self.depth.size
         lines = [
             f"Loading curve by {self.method}: {levels} level{'s' * (levels > 1)}, {self.elements} elements",
-            f"depth u {span(self.depth, unit)}, force F/G {span(self.force, unit_power(unit, 2))}, "
+            f"depth u {span(self.depth, unit)}, force F/G {span(self.force, si_unit('m2', unit))}, "
             f"stiffness k/G {span(self.stiffness, unit)}",
             f"contact fraction {span(self.contact_fraction)}",
             self.grid_error_text,

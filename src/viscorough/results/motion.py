@@ -59,7 +59,7 @@ class Motion(InNotebooks):
             f"time t {span(self.time, si_unit('s', unit))}\n"
             f"depth u {span(self.depth, unit)}\n"
             f"force F {span(self.force, si_unit('N', unit))}\n"
-            f"velocity v {span(self.velocity, si_unit(f'{unit} s-1', unit))}\n"
+            f"velocity v {span(self.velocity, si_unit('m s-1', unit))}\n"
             f"contact fraction {span(self.contact_fraction)}"
         )
         if np.isnan(self.receding_from):

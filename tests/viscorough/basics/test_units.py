@@ -64,6 +64,18 @@ def test_common_units_do_not_need_pint():
     assert "pint" not in modules
 
 
+@pytest.mark.parametrize(
+    ("length", "spelled"),
+    [
+        ("um", ["um", "um2", "um s-1", "s"]),
+        ("1", ["1", "1", "1", "s"]),
+        ("1e-6 m", ["1e-6 m", "(1e-6 m)2", "1e-6 m s-1", "s"]),
+    ],
+)
+def test_powers_of_a_unit_of_length_are_spelled_as_udunits_does(length, spelled):
+    assert [units.with_length(unit, length) for unit in ("m", "m2", "m s-1", "s")] == spelled
+
+
 def test_numbers_are_converted_to_si_units():
     assert units.in_si(units.Quantity(2.0), "m", "um", "x") == 2e-6
     assert units.in_si(units.Quantity(2.0, "mN"), "N", "um", "x") == 2e-3

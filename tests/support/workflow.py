@@ -1,5 +1,6 @@
 """Copy the project, run Snakemake in the copies, and read its plans."""
 
+import copy
 import fcntl
 import importlib.util
 import multiprocessing.forkserver
@@ -15,6 +16,7 @@ from multiprocessing.connection import wait
 from pathlib import Path
 
 import yaml
+from snakemake.utils import update_config
 
 ROOT = Path(__file__).resolve().parents[2]
 TEST = ("--configfile", "config/test.yaml")
@@ -225,9 +227,9 @@ def load_script(name):
 
 def merged(base, extra):
     """Return settings overridden by a --configfile: mappings are merged, everything else is replaced."""
-    if not (isinstance(base, dict) and isinstance(extra, dict)):
-        return extra
-    return base | {key: merged(base.get(key), value) for key, value in extra.items()}
+    settings = copy.deepcopy(base)
+    update_config(settings, extra)
+    return settings
 
 
 def read_settings(name):

@@ -63,16 +63,15 @@ def contact(
 
     from viscorough.contact.one_contact import contact_at
     from viscorough.io.contact_files import contacts_to_content
-    from viscorough.io.contact_tables import contact_table, rows_of_contacts, text_of_row
+    from viscorough.io.contact_tables import table_of_contacts, table_to_content, text_of_last
 
     how: dict[str, Any] = {"tolerance": tolerance, "threads": threads}
     how |= {"force": options.forces(force, modulus, unit, "--force"), "depth": options.lengths(depth, unit, "--depth")}
     with messages.progress_bar("viscorough contact", progress) as report:
         contacts: Any = contact_at(indenter, **how, progress=report)
-    is_table = output.suffix.lower() == ".csv"
-    content = contact_table(contacts, modulus) if is_table else contacts_to_content(contacts, indenter.heights, modulus)
+    table, is_table = table_of_contacts(contacts, modulus), output.suffix.lower() == ".csv"
+    content = table_to_content(table) if is_table else contacts_to_content(contacts, indenter.heights, modulus)
     attributes = heights.attributes(indenter, unit) | elastic_attributes
     files.write_output(content, output, "m" if is_table else unit, **attributes)
-    rows, stated = rows_of_contacts(contacts[-1:], modulus)
-    text = text_of_row(rows[-1], stated)
+    text = text_of_last(table)
     messages.announce(output, text if len(contacts) == 1 else f"{len(contacts)} levels, the last at {text}")

@@ -40,6 +40,13 @@ NUMBERS_WITH_MODULUS = {
     "mean_normal_pressure": ("mean normal pressure p", "Pa"),
     "largest_normal_pressure": ("largest normal pressure p", "Pa"),
 }
+# Names of these variables, F, k and p, by the quantities F/G, k/G and p/G that G multiplies.
+NAMES_WITH_MODULUS = {
+    "force": "normal_force",
+    "stiffness": "normal_stiffness",
+    "mean_pressure": "mean_normal_pressure",
+    "largest_pressure": "largest_normal_pressure",
+}
 # Additional map of a contact, if the shear modulus is given: {name: (long_name, unit)}.
 _MAP_WITH_MODULUS = {"normal_pressure": ("normal pressure p", "Pa")}
 PATCHES = {"patches": ("number of patches of contact", "1"), "patch_area": ("area of a patch", "m2")}
@@ -82,10 +89,9 @@ def contacts_to_content(
     variables["contact"][2].update(flag_values=np.array([0, 1], np.int8), flag_meanings="apart in_contact")
     add((), NUMBERS, **{name: [getattr(contact, name) for contact in contacts] for name in NUMBERS})
     if shear_modulus is not None:
-        named = {"normal_force": "force", "normal_stiffness": "stiffness"}
-        named |= {f"{name}_normal_pressure": f"{name}_pressure" for name in ("mean", "largest")}
-        numbers = {new: [shear_modulus * getattr(contact, old) for contact in contacts] for new, old in named.items()}
-        add((), NUMBERS_WITH_MODULUS, **numbers)
+        for name, new in NAMES_WITH_MODULUS.items():
+            numbers = [shear_modulus * getattr(contact, name) for contact in contacts]
+            add((), NUMBERS_WITH_MODULUS, **{new: numbers})
         add(("y", "x"), _MAP_WITH_MODULUS, normal_pressure=[shear_modulus * each for each in maps["pressure"]])
     areas = [contact.patches().areas for contact in contacts]
     add((), PATCHES, patches=[len(patch_areas) for patch_areas in areas])

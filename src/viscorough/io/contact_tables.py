@@ -11,7 +11,7 @@ import numpy as np
 
 from viscorough.basics import summaries
 from viscorough.basics.types import Array
-from viscorough.io.contact_files import NUMBERS, NUMBERS_WITH_MODULUS, PATCHES
+from viscorough.io.contact_files import NAMES_WITH_MODULUS, NUMBERS, NUMBERS_WITH_MODULUS, PATCHES
 from viscorough.io.curves import ABOUT_GRID, OVER_LEVELS
 from viscorough.io.netcdf import Content
 from viscorough.results.contact_maps import Contact
@@ -29,12 +29,8 @@ MEASURES = {
     "patches": None,
     **dict.fromkeys(ABOUT_GRID),
 }
-# Names of the columns with F, k and p, which replace F/G, k/G and p/G if the shear modulus G is given:
-# {quantity: name of the column}.
-WITH_MODULUS = {"force": "normal_force", "stiffness": "normal_stiffness"}
-WITH_MODULUS |= {"mean_pressure": "mean_normal_pressure", "largest_pressure": "largest_normal_pressure"}
-# Columns that hold whole numbers.
-_COUNTS = ("patches",)
+# Quantities in tables that are attributes of a Contact.
+_OF_CONTACT = [name for name in MEASURES if name != "patches" and name not in ABOUT_GRID]
 # Quantities that users may prescribe. They are shown with six digits, and all other quantities with four.
 _PRESCRIBED = ("depth", "force", "normal_force")
 # {column: meaning}, of all columns that a table of contacts may have.
@@ -42,8 +38,7 @@ MEANINGS = {
     name: text for name, (text, _) in (OVER_LEVELS | ABOUT_GRID | NUMBERS | NUMBERS_WITH_MODULUS | PATCHES).items()
 }
 
-Row = dict[str, float | int]
-Rows = tuple[Sequence[Row], dict[str, str]]  # (rows of a table, {column: unit})
+Table = dict[str, tuple[Array, str]]  # {column: (its values, their unit)}
 
 
 class ResultUnit(NamedTuple):
@@ -84,37 +79,25 @@ def result_units(length_unit: str, shear_modulus: float | None) -> dict[str, Res
     }
 
 
-def rows_of_contacts(
+def table_of_contacts(
     contacts: Sequence[Contact], shear_modulus: float | None = None, grid_errors: dict[str, Array] | None = None
-) -> Rows:
-    """Return (rows of a table, {column: unit}), with one row for each contact.
+) -> Table:
+    """Return the table of contacts of one indenter, with one row for each contact, in the units of result_units.
 
     shear_modulus : G [Pa], or in consistent units; None if forces are F/G
     grid_errors : {quantity in io.curves.ABOUT_GRID: its value for each contact}; None for a table without grid errors
     """
-    values: dict[str, Any] = {name: [] for name in MEASURES if name not in ABOUT_GRID}
-    for contact in contacts:
-        for name in values:
-            values[name].append(contact.patches().areas.size if name == "patches" else getattr(contact, name))
-    return _rows(values | (grid_errors or {}), contacts[0].length_unit, shear_modulus)
-
-
-def _rows(values: dict[str, Any], length_unit: str, shear_modulus: float | None) -> Rows:
-    """Convert results of the solver to (rows of a table, {column: unit}), in the units of result_units.
-
-    values : {quantity: its value for each row}
-    """
-    read, stated = result_units(length_unit, shear_modulus), {}
-    columns: dict[str, list[float | int]] = {}
-    for quantity, numbers in values.items():
+    values: dict[str, Any] = {name: [getattr(each, name) for each in contacts] for name in _OF_CONTACT}
+    values["patches"] = [contact.patches().areas.size for contact in contacts]
+    read = result_units(contacts[0].length_unit, shear_modulus)
+    table = {}
+    for quantity, numbers in (values | (grid_errors or {})).items():
         measure = MEASURES[quantity]
-        name = quantity if shear_modulus is None else WITH_MODULUS.get(quantity, quantity)
-        stated[name], factor = ("1", None) if measure is None else read[measure]
-        if quantity in _COUNTS:
-            columns[name] = [int(number) for number in numbers]
-        else:
-            columns[name] = [_rounded(number * (factor or 1.0)) for number in numbers]
-    return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)], stated
+        unit = ResultUnit("1", 1.0) if measure is None else read[measure]
+        name = quantity if shear_modulus is None else NAMES_WITH_MODULUS.get(quantity, quantity)
+        column = numbers if quantity == "patches" else [_rounded(number * unit.factor) for number in numbers]
+        table[name] = np.array(column), unit.name
+    return table
 
 
 def _rounded(number: float) -> float:
@@ -122,32 +105,28 @@ def _rounded(number: float) -> float:
     return float(f"{number:.15g}")
 
 
-def text_of_row(row: Row, stated: dict[str, str]) -> str:
-    """Return one line of text with the main numbers of a contact.
-
-    row : row of a table of contacts
-    stated : {column: unit} of the table
-    """
+def text_of_last(table: Table) -> str:
+    """Return one line of text with the main numbers of the last contact in a table of contacts."""
 
     def text(name: str) -> str:
-        return ResultUnit(stated[name], 1.0).text(row[name], 6 if name in _PRESCRIBED else 4)
+        values, unit = table[name]
+        return ResultUnit(unit, 1.0).text(values[-1], 6 if name in _PRESCRIBED else 4)
 
     parts = [f"depth {text('depth')}"]
-    if "normal_force" in row:
+    if "normal_force" in table:
         parts += [f"F {text('normal_force')}", f"largest p {text('largest_normal_pressure')}"]
         parts += [f"k {text('normal_stiffness')}"]
     else:
         parts += [f"F/G {text('force')}"]
     parts += [f"contact fraction {text('contact_fraction')}", f"contact area {text('contact_area')}"]
     parts[-1] += f" (corrected {text('corrected_contact_area')})"
-    return ", ".join([*parts, f"{row['patches']} patch{'' if row['patches'] == 1 else 'es'}"])
+    patches = table["patches"][0][-1]
+    return ", ".join([*parts, f"{patches} patch{'' if patches == 1 else 'es'}"])
 
 
-def contact_table(contacts: Sequence[Contact], shear_modulus: float | None = None) -> Content:
-    """Convert contacts of one indenter to the content of a table with one row for each contact."""
-    rows, stated = rows_of_contacts(contacts, shear_modulus)
-    variables: dict[str, Any] = {}
-    for name, unit in stated.items():
-        values: Array = np.array([row[name] for row in rows])
-        variables[name] = ("row",), values, {"long_name": MEANINGS[name], "units": unit}
+def table_to_content(table: Table) -> Content:
+    """Convert a table of contacts to the content of a file with one row for each contact."""
+    variables: dict[str, Any] = {
+        name: (("row",), values, {"long_name": MEANINGS[name], "units": unit}) for name, (values, unit) in table.items()
+    }
     return variables, {"title": "Contacts of a rigid indenter with an elastic half-space"}

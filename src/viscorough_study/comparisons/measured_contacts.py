@@ -14,7 +14,8 @@ import pandas as pd
 from viscorough import AccuracyWarning, contact_at, indent
 from viscorough.basics.elasticity import young_over_shear
 from viscorough.basics.errors import REPORTED, message
-from viscorough.io.contact_tables import MEANINGS, MEASURES, WITH_MODULUS, result_units, rows_of_contacts
+from viscorough.io.contact_files import NAMES_WITH_MODULUS
+from viscorough.io.contact_tables import MEANINGS, MEASURES, result_units, table_of_contacts
 from viscorough.io.curves import ABOUT_GRID
 from viscorough_study.ensembles.measured import measured_indenter
 
@@ -22,7 +23,7 @@ _TEXTS = {
     "error": "why the scan has no numbers; empty if it has",
     "warnings": "doubts about the numbers; empty if there are none",
 }
-_COLUMNS = {WITH_MODULUS.get(name, name): measure for name, measure in MEASURES.items()}
+_COLUMNS = {NAMES_WITH_MODULUS.get(name, name): measure for name, measure in MEASURES.items()}
 CONTACTS = {
     "scan": ("name of the scan", None),
     "group": ("group of scans", None),
@@ -107,8 +108,9 @@ def rows_with_grid_errors(indenter, forces, shear_modulus) -> list[dict[str, Any
         curve = indent(indenter, forces=levels, estimate_grid_error=True)
     places = [int(np.argmin(np.abs(curve.force - contact.force))) for contact in contacts]
     errors = {name: getattr(curve, name)[places] for name in ABOUT_GRID}
-    rows, _ = rows_of_contacts(contacts, shear_modulus, errors)
-    return list(rows)
+    table = table_of_contacts(contacts, shear_modulus, errors)
+    columns = [values.tolist() for values, _ in table.values()]
+    return [dict(zip(table, row, strict=True)) for row in zip(*columns, strict=True)]
 
 
 def _with_forces_below(forces):

@@ -19,7 +19,7 @@ def contacts():
 
 def test_numbers_are_in_micrometres_newtons_and_megapascals():
     """The expected numbers are converted by hand: G is 0.5 MPa."""
-    rows, units = contact_tables.rows_of_contacts(contacts(), MODULUS)
+    table = contact_tables.table_of_contacts(contacts(), MODULUS)
     last = contacts()[-1]
     expected = {
         "depth": (1e6 * last.depth, "um"),
@@ -32,22 +32,24 @@ def test_numbers_are_in_micrometres_newtons_and_megapascals():
         "largest_normal_pressure": (0.5 * last.largest_pressure, "MPa"),
         "patches": (1, "1"),
     }
-    assert units == {name: unit for name, (_, unit) in expected.items()}
-    assert rows[-1] == pytest.approx({name: value for name, (value, _) in expected.items()}, rel=1e-14)
-    assert [row["normal_force"] for row in rows] == [5e-6, 1e-5]
+    assert table.keys() == expected.keys()
+    for name, (value, unit) in expected.items():
+        values, stated = table[name]
+        assert (values[-1], stated) == (pytest.approx(value, rel=1e-14), unit)
+    assert table["normal_force"][0].tolist() == [5e-6, 1e-5]
 
 
 def test_without_a_unit_of_length_numbers_stay_consistent():
     plain = Indenter(HEIGHTS, 1.0)
-    rows, units = contact_tables.rows_of_contacts([contact_at(plain, force=20.0)])
-    assert (rows[0]["force"], set(units.values())) == (20.0, {"1"})
-    rows, units = contact_tables.rows_of_contacts([contact_at(plain, force=10.0)], 2.0)
-    assert (rows[0]["normal_force"], set(units.values())) == (20.0, {"1"})
+    for name, force, modulus in (("force", 20.0, None), ("normal_force", 10.0, 2.0)):
+        table = contact_tables.table_of_contacts([contact_at(plain, force=force)], modulus)
+        assert table[name][0] == 20.0
+        assert {unit for _, unit in table.values()} == {"1"}
 
 
 def test_a_table_has_a_row_for_each_contact(tmp_path):
-    tables.write(tmp_path / "table.csv", *contact_tables.contact_table(contacts(), MODULUS))
+    expected = contact_tables.table_of_contacts(contacts(), MODULUS)
+    tables.write(tmp_path / "table.csv", *contact_tables.table_to_content(expected))
     table, units = read_table(tmp_path / "table.csv")
-    rows, expected = contact_tables.rows_of_contacts(contacts(), MODULUS)
-    assert table.to_dict("records") == rows
-    assert units == expected
+    assert table.to_dict("list") == {name: values.tolist() for name, (values, _) in expected.items()}
+    assert units == {name: unit for name, (_, unit) in expected.items()}

@@ -39,7 +39,7 @@ COLUMNS = {
 }
 
 
-def periodic_control(*, hursts, points, surfaces, roll_off, seed, **levels):
+def periodic_control(*, hursts, points, surfaces, roll_off, x_low, x_high, per_decade, seed):
     """Compute the compliance g_per of periodic surfaces at several X; return a pandas.DataFrame with `COLUMNS`.
 
     The surfaces have spectra with and without a roll-off.
@@ -47,11 +47,11 @@ def periodic_control(*, hursts, points, surfaces, roll_off, seed, **levels):
     points : points along a side of the square; surfaces : number of surfaces for each Hurst exponent and spectrum
     roll_off : {"wavelength": roll-off wavelength as a share of the period, "level": roll_off_level of
         self_affine_square}
+    x_low, x_high, per_decade : range and number per decade of the X at which contacts are solved. g_per is the
+        difference quotient between neighbouring X
     seed : root of the surfaces' seeds
-    levels : x_low, x_high and per_decade; range and number per decade of the X at which contacts are solved. g_per is
-        the difference quotient between neighbouring X
     """
-    x, tables = abscissa(levels["x_low"], levels["x_high"], levels["per_decade"]), []
+    x, tables = abscissa(x_low, x_high, per_decade), []
     rolled_off = {"roll_off_wavelength": points * roll_off["wavelength"], "roll_off_level": roll_off["level"]}
     for hurst, (wavelength, waves) in product(hursts, ((np.nan, {}), (roll_off["wavelength"], rolled_off))):
         seeds = [realization_seed(seed, *periodic_key(hurst, number)) for number in range(surfaces)]

@@ -61,7 +61,7 @@ def with_interval(samples, realizations):
     realizations : n, the number of realizations in the ensemble
 
     For small n the 2.5 % and 97.5 % percentiles of the samples give too narrow an interval. The ends are therefore the
-    percentiles at the levels Φ(∓√(n/(n−1)) t), where Φ is the standard normal distribution and t is the 97.5 % point of
+    percentiles Φ(∓√(n/(n−1)) t), where Φ is the standard normal distribution and t is the 97.5 % point of
     Student's t with n − 1 degrees of freedom. For a mean this gives the t interval (Hesterberg, The American
     Statistician 69, 371 (2015): expanded percentile interval). Both ends are nan for a single realization.
     """

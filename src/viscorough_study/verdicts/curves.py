@@ -129,7 +129,7 @@ def separation(evidence, tolerance):
     ends for the smaller exponent, divided by the X at which it ends for the larger exponent. Region (a) ends where the
     geometric mean of κ reaches `LEFT_REGION` times κ of a single element.
     """
-    ends, level = {}, np.log(LEFT_REGION * reference.one_element_stiffness(evidence.across))
+    ends, last = {}, np.log(LEFT_REGION * reference.one_element_stiffness(evidence.across))
     for i, (hurst, ensemble) in enumerate(evidence.pooled.items()):
         stiffness = np.log(ensemble["stiffness"].values)
         stiffness = stiffness[:, np.isfinite(stiffness).all(axis=0)]
@@ -138,7 +138,7 @@ def separation(evidence, tolerance):
         log_x = np.log(ensemble["x"].values[: means.shape[1]])
         # Values of ln X at the end of region (a), first for the ensemble, then for its resamples. Values are nan for
         # curves that do not reach this end.
-        ends[hurst] = np.array([np.interp(level, mean, log_x, left=np.nan, right=np.nan) for mean in means])
+        ends[hurst] = np.array([np.interp(last, mean, log_x, left=np.nan, right=np.nan) for mean in means])
     for lower, higher in pairwise(ends):
         ratios = np.exp(ends[lower] - ends[higher])
         realizations = min(evidence.pooled[hurst].sizes["realization"] for hurst in (lower, higher))

@@ -53,7 +53,8 @@ def explicit_steps(indenter, impulses):
     pressure, gap_rate = np.zeros_like(gap), np.full_like(gap, -1.0)  # q and K q − 1
     depth, sum_of_pressures, rows = 0.0, 0.0, []
     lengths = np.diff(impulses / elements.units.stiffness, prepend=0.0)
-    for length in [0.0, *lengths]:  # before the first step, only the first contact is solved
+    # Before the first step, only the first contact is solved. The ends of a step may be equal up to rounding.
+    for step, length in enumerate([0.0, *lengths]):
         if length > 0:
             depth += length / sum_of_pressures
             gap += length / sum_of_pressures * gap_rate
@@ -63,7 +64,7 @@ def explicit_steps(indenter, impulses):
             sum_of_pressures = grid.solve_flat_punch(inside, pressure, gap_rate)
             if pressure.min() < -TOLERANCE * pressure.max():
                 raise ConvergenceError(f"explicit steps: tension at depth {depth:g}; contact would open")
-        if length > 0:
+        if step > 0:
             rows.append((depth, elements.units.stiffness * sum_of_pressures, max(-gap.min(), 0.0) / depth))
     steps = Steps(np.asarray(impulses), *np.array(rows).T)
     if steps.overlap.max() > LARGEST_OVERLAP:

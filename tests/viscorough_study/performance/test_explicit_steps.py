@@ -29,3 +29,10 @@ def test_long_steps_overlap_the_surface_deeply():
         steps = explicit_steps(DISC, np.linspace(0, EVENTS.impulse[700], 11)[1:])
     assert steps.overlap[0] > 0.5
     assert steps.depth[0] > 2 * EVENTS.depth_at(steps.impulse[0])
+
+
+@pytest.mark.filterwarnings("ignore:explicit steps")
+def test_ends_that_differ_by_rounding_have_a_row_each():
+    ends = np.linspace(0, EVENTS.impulse[700], 31)[1:]
+    twice = np.union1d(ends, np.nextafter(ends, np.inf))
+    assert explicit_steps(DISC, twice).depth.shape == twice.shape

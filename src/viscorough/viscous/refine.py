@@ -43,14 +43,15 @@ def refine(
     load, moved : load, and the motion of the row under this load
     """
     stiff = spectrum.instantaneous > 0 and medium.creep_compliance(0.0) == 0
-    refined = (_at_depth if load.by_depth else _under_force)(curve, row, spectrum, load, moved, stiff)
-    if not stiff:
-        return refined
-    return (_after_steps_of_depth if load.by_depth else _after_steps_of_force)(medium, load, refined)
+    if load.by_depth:
+        refined = _at_depth(curve, row, spectrum, load, moved)
+        return _after_steps_of_depth(load, refined) if stiff else refined
+    refined = _under_force(curve, row, spectrum, load, moved, stiff=stiff)
+    return _after_steps_of_force(medium, load, refined) if stiff else refined
 
 
 def _at_depth(
-    curve: LoadingCurve, row: RowOfSprings, spectrum: Spectrum, load: Load, moved: RowMotion, stiff: bool
+    curve: LoadingCurve, row: RowOfSprings, spectrum: Spectrum, load: Load, moved: RowMotion
 ) -> RefinedMotion:
     """Return the motion at a prescribed depth."""
     count, force = moved.in_contact, moved.force
@@ -68,7 +69,7 @@ def _at_depth(
 
 
 def _under_force(
-    curve: LoadingCurve, row: RowOfSprings, spectrum: Spectrum, load: Load, moved: RowMotion, stiff: bool
+    curve: LoadingCurve, row: RowOfSprings, spectrum: Spectrum, load: Load, moved: RowMotion, *, stiff: bool
 ) -> RefinedMotion:
     """Return the motion under a prescribed force.
 
@@ -144,7 +145,7 @@ def _is_before_step(load: Load) -> Mask:
     return np.diff(load.time, append=load.time[-1]) == 0
 
 
-def _after_steps_of_depth(medium: Medium, load: Load, refined: RefinedMotion) -> RefinedMotion:
+def _after_steps_of_depth(load: Load, refined: RefinedMotion) -> RefinedMotion:
     """Set the force just after steps of the depth, in a medium with J(0) = 0.
 
     A step into the surface needs an infinite force. After a step out of the surface there is no force.

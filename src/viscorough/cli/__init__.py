@@ -69,24 +69,23 @@ for _command in (
     cli.add_command(_command)
 
 
-def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int:
+def main(arguments: list[str] | None = None) -> int:
     """Run the command line and return its exit code.
 
     arguments : texts that follow the name of the program; default: sys.argv[1:]
-    commands : the click.Group to run
     """
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     if instruction := os.environ.get(_COMPLETE):
-        return shell_complete(commands, {}, "viscorough", _COMPLETE, instruction)
-    command = " ".join(["viscorough", *(name for name in arguments[:1] if name in commands.commands)])
+        return shell_complete(cli, {}, "viscorough", _COMPLETE, instruction)
+    command = " ".join(["viscorough", *(name for name in arguments[:1] if name in cli.commands)])
     messages.escape_unencodable_characters()
     try:
         with (
             warnings.catch_warnings(record=True) as caught,
-            commands.make_context("viscorough", arguments, obj=caught) as context,
+            cli.make_context("viscorough", arguments, obj=caught) as context,
         ):
             options.refuse_split_quantity(arguments)
-            commands.invoke(context)
+            cli.invoke(context)
         for text in messages.warning_texts(caught):
             messages.complain(command, f"warning: {text}")
     except click.exceptions.Exit as done:

@@ -39,14 +39,14 @@ class CompleteContact(NamedTuple):
         return self.stiffness * (self.depth - self.mean_gap)
 
 
-def complete_contact(indenter: Indenter, threads: int = 1) -> CompleteContact:
+def complete_contact(indenter: Indenter) -> CompleteContact:
     """Compute the complete contact of an indenter with two-dimensional heights.
 
     Raises ConvergenceError if the linear problems cannot be solved to a relative residual of 1e-12.
     """
-    elements = all_elements(indenter, threads)
+    elements = all_elements(indenter)
     units = elements.units
-    joined = joined_surface(elements, threads=threads)
+    joined = joined_surface(elements)
     reduced_energy = float(joined.load @ (elements.initial_gap - joined.mean_gap)) / 2
     return CompleteContact(
         mean_gap=joined.mean_gap * units.length,

@@ -29,13 +29,13 @@ _MOST_NAMES = 5
 logging.getLogger("tifffile").addHandler(logging.NullHandler())
 
 
-def read_instrument(path: FilePath, content: bytes, channel: str | None = None) -> Scan:
+def read_instrument(path: FilePath, content: bytes, channel: str | None) -> Scan:
     """Read heights, spacing and units, as a Scan, from a file in a format that SurfaceTopography recognizes.
 
     An AccuracyWarning is given if other channels hold heights as well, and if the surface is periodic.
 
     content : content of the file at `path`
-    channel : name or number of the channel, from 0; by default the first channel with heights
+    channel : name or number of the channel, from 0; None for the first channel with heights
 
     Raises ValueError for unknown formats, line scans and channels without heights.
     """

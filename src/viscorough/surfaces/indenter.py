@@ -162,15 +162,15 @@ def _spacings(spacing: Any, row_spacing: Any) -> tuple[float, float]:
     return spacing, row_spacing
 
 
-def check_indenter(caller: str, indenter: object, dimensions: int | None = None) -> None:
+def check_indenter(caller: str, indenter: object, dimensions: int) -> None:
     """Raise TypeError unless `indenter` is an Indenter, and ValueError if its heights have the wrong dimensions.
 
     caller : name of the function that the user called; messages start with it
-    dimensions : allowed number of dimensions of the heights: 2 for a map, 1 for a line, None for either
+    dimensions : allowed number of dimensions of the heights: 2 for a map, 1 for a line
     """
     if not isinstance(indenter, Indenter):
         text = "an Indenter is needed, as viscorough.Indenter(heights, spacing) or viscorough.read_heights makes it"
         raise TypeError(f"{caller}: {type(indenter).__name__}; {text}")
-    if dimensions is not None and indenter.heights.ndim != dimensions:
+    if indenter.heights.ndim != dimensions:
         needed = {1: "one-dimensional (maps are for indent)", 2: "two-dimensional (lines are for reduce)"}[dimensions]
         raise ValueError(f"{caller}: the indenter's heights must be {needed}")

@@ -11,12 +11,16 @@ from support.command_line import python
 from viscorough import ConvergenceError, cli
 
 
-def run_indent_as(function):
-    """Run the command line with one command, `indent`, which calls a function; return the exit code."""
-    commands = click.Group()
-    commands.command("indent")(function)
-    with warnings.catch_warnings(action="default"):
-        return cli.main(["indent"], commands)
+@pytest.fixture
+def run_indent_as(monkeypatch):
+    """Return a function that runs the command `indent` as a call of its argument, and returns the exit code."""
+
+    def run(function):
+        monkeypatch.setitem(cli.cli.commands, "indent", click.Command("indent", callback=function))
+        with warnings.catch_warnings(action="default"):
+            return cli.main(["indent"])
+
+    return run
 
 
 @pytest.mark.parametrize(
@@ -29,7 +33,7 @@ def run_indent_as(function):
         (OSError("a.nc: not written"), 2, "a.nc: not written"),
     ],
 )
-def test_errors_are_one_line(capsys, error, code, what):
+def test_errors_are_one_line(capsys, error, code, what, run_indent_as):
     def fail():
         warnings.warn("overflow on the way", RuntimeWarning, stacklevel=1)
         raise error
@@ -39,7 +43,7 @@ def test_errors_are_one_line(capsys, error, code, what):
     assert line.startswith(f"viscorough indent: {what}")
 
 
-def test_warnings_are_written_once_and_on_one_line(capsys):
+def test_warnings_are_written_once_and_on_one_line(capsys, run_indent_as):
     def warn():
         for _ in range(3):
             warnings.warn("the spacing\nis odd", UserWarning, stacklevel=1)
@@ -48,7 +52,7 @@ def test_warnings_are_written_once_and_on_one_line(capsys):
     assert capsys.readouterr().err == "viscorough indent: warning: the spacing is odd\n"
 
 
-def test_errors_in_the_code_are_not_hidden():
+def test_errors_in_the_code_are_not_hidden(run_indent_as):
     with pytest.raises(ZeroDivisionError):
         run_indent_as(lambda: 1 / 0)
 

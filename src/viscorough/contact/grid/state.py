@@ -147,9 +147,9 @@ class GridWorkspace:
         tolerance: float,
         options: SolverOptions,
         *,
-        aspect: float = 1.0,
-        threads: int = 1,
-        tiles: Mask | None = None,
+        aspect: float,
+        threads: int,
+        tiles: Mask | None,
     ) -> None:
         self.tolerance, self.options, self.aspect, self.loops = tolerance, options, aspect, GridLoops(threads)
         rows, columns = shape

@@ -36,7 +36,7 @@ def influence_coefficient(row: Array | Integers, column: Array | Integers, aspec
     return influence_table(rows, columns, aspect)[row_at, column_at]
 
 
-def influence_table(row: Array, column: Array, aspect: float = 1.0) -> Array:
+def influence_table(row: Array, column: Array, aspect: float) -> Array:
     """Return the influence coefficients K at all pairs of a distance in rows and a distance in columns.
 
     row, column : distances from the centre of an element, arrays of shapes (m,) and (n,)

@@ -33,7 +33,7 @@ def convolution_lengths(rows: int, columns: int) -> tuple[int, int]:
     return good_length(2 * (rows - 1)) if rows > 1 else 1, 2 * ducc0.fft.good_size(max(columns - 1, 1), True)
 
 
-def spectrum_of_grid(rows: int, columns: int, *, aspect: float = 1.0, padding: bool = True, threads: int = 1) -> Array:
+def spectrum_of_grid(rows: int, columns: int, *, aspect: float, padding: bool, threads: int) -> Array:
     """Return the real spectrum of the influence coefficients of a grid, in double precision.
 
     The arguments are explained at `Halfspace`.

@@ -47,7 +47,7 @@ _MARGIN = 4
 _LARGEST_ASPECT = 2.0
 
 
-def is_suitable(shape: tuple[int, int], aspect: float, tolerance: float, options: SolverOptions = DEFAULT) -> bool:
+def is_suitable(shape: tuple[int, int], aspect: float, tolerance: float, options: SolverOptions) -> bool:
     """Return True if a grid is so large that tiles save time, and if deflections by tiles are accurate enough.
 
     shape : rows and columns of the grid

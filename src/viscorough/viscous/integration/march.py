@@ -80,7 +80,7 @@ def march(
     return integrate_steps(indenter, medium, load, progress)[0]
 
 
-def _integrate_events(indenter: Indenter, medium: Medium | float, load: Load, until_fraction: float = 1.0) -> Motion:
+def _integrate_events(indenter: Indenter, medium: Medium | float, load: Load, until_fraction: float) -> Motion:
     """Integrate the contact in a Newtonian medium under a force, exactly from contact event to contact event.
 
     until_fraction : contact fraction up to which events are followed

@@ -14,8 +14,7 @@ import click
 from viscorough.basics.errors import REPORTED, AccuracyWarning, message
 
 _DELAY = 1.0  # time until progress is shown, in seconds
-# The command line reports errors of these types in one line. An error of any other type is a fault of viscorough.
-ERRORS = (click.ClickException, *REPORTED)
+ERRORS = (click.ClickException, *REPORTED)  # errors that the command line reports in one line
 # Name of an argument in a message of the library, with or without a value: "argument detrend='plane'".
 _ARGUMENT = re.compile(r"\bargument (\w+)(?:=([^\s;,:)]+))?")
 # Options that have another name than the argument of the library.

@@ -244,7 +244,7 @@ def _spikes(heights: Array) -> Iterator[str]:
         yield (
             f"{count} single points stand up to {largest:.3g} above all their neighbours, {largest / usual:.3g} times "
             "the usual step between neighbours: spikes touch first; "
-            f"argument nodata with their values sets those to nan that are artefacts"
+            "argument nodata with their values sets those to nan that are artefacts"
         )
 
 
@@ -269,7 +269,7 @@ def _holes(heights: Array) -> Iterator[str]:
         regions, share = f"{count} enclosed region{'' if count == 1 else 's'}", 100 * points / heights.size
         yield (
             f"{regions} without heights ({points} points, {share:.2g} %) are holes that never touch; "
-            f"argument fill='harmonic' closes them"
+            "argument fill='harmonic' closes them"
         )
 
 

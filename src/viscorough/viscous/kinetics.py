@@ -268,7 +268,7 @@ def _check_depths(curve: LoadingCurve, depths: Array) -> None:
     if depths.max() > last * (1 + ROUNDING) and curve.contact_count[-1] < curve.elements:
         raise ValueError(
             f"load: the depth {depths.max():g} is beyond the curve's last level; allowed: up to {last:g}; "
-            f"indent further, with argument until_fraction=1"
+            "indent further, with argument until_fraction=1"
         )
 
 
@@ -293,9 +293,8 @@ def _refuse(curve: LoadingCurve, row: RowOfSprings, spectrum: Spectrum, load: Lo
     if not load.by_depth:
         _check_creep(curve, row, load.time, creep_response(spectrum, load))
     raise ValueError(
-        f"load: at time {moved.until:g} the contact grows beyond the "
-        f"curve's last level; allowed: depths up to {curve.depth[-1]:g}; indent further, with "
-        f"argument until_fraction=1"
+        f"load: at time {moved.until:g} the contact grows beyond the curve's last level; allowed: depths up to "
+        f"{curve.depth[-1]:g}; indent further, with argument until_fraction=1"
     )
 
 
@@ -314,7 +313,7 @@ def _warn_of_the_beginning(curve: LoadingCurve, row: RowOfSprings, load: Load, m
     share = curve.force[0] / max(np.nanmax(moved.deflection), np.finfo(float).tiny)
     if depends and share > _UNKNOWN_SHARE:
         warnings.warn(
-            f"the motion depends on the curve before its first level, which is taken for a power "
+            "the motion depends on the curve before its first level, which is taken for a power "
             f"law; this level carries {100 * min(share, 1):.2g} % of the largest elastic force; an earlier first level "
             "is needed",
             AccuracyWarning,

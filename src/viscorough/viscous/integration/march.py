@@ -92,7 +92,7 @@ def _integrate_events(indenter: Indenter, medium: Medium | float, load: Load, un
         found = "load of a depth" if load.by_depth else "a medium that is not Newtonian"
         raise ValueError(
             f"march: argument method='events', {found}; allowed: a force on a Newtonian medium, or "
-            f"argument method='implicit'"
+            "argument method='implicit'"
         )
     impulse = load.integral / relaxation.viscosity
     check_overflow(impulse)
@@ -100,7 +100,7 @@ def _integrate_events(indenter: Indenter, medium: Medium | float, load: Load, un
     if impulse[-1] > events.impulse[-1] and events.contact_count[-1] < events.elements:
         raise ConvergenceError(
             f"march: {events.contact_count[-1]} elements touch before time {times[-1]:.6g}; a larger "
-            f"argument until_fraction is needed"
+            "argument until_fraction is needed"
         )
     last_event = events.event_at(impulse)
     fraction = np.where(impulse > 0, events.contact_count[last_event], 0) / events.elements

@@ -87,7 +87,7 @@ _SHORT_TYPES = {
         (numpy.typing, ["ArrayLike", "DTypeLike"]),
         (
             types,
-            ["Array", "Integers", "Mask", "Numbers", "Scalar", "Several", "Seed", "FloatType", "FilePath", "Progress"],
+            ["Array", "Integers", "Mask", "Numbers", "Scalar", "Several", "Seed", "FilePath", "Progress"],
         ),
     )
     for name in names

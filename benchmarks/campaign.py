@@ -159,7 +159,13 @@ def failure(family, seed, number):
 
 
 @click.command()
-@click.option("--curves", type=click.IntRange(1), default=12_000, show_default=True, help="Curves of a family.")
+@click.option(
+    "--curves",
+    type=click.IntRange(1),
+    default=12_000,
+    show_default=True,
+    help="Curves.",
+)
 @click.option("--seed", type=click.IntRange(0), default=2013, show_default=True, help="Root seed.")
 @click.option("--family", type=click.Choice(list(FAMILIES)), help="Only this family.")
 @click.option("--number", type=click.IntRange(0), help="Only the curve of this number.")
@@ -173,10 +179,10 @@ def main(curves, seed, family, number, cores, output):
         counts[name] = len(numbers)
         with Pool(cores) as pool:
             wrongs = pool.imap(partial(failure, name, seed), numbers)
-            for drawn, wrong in tqdm(zip(numbers, wrongs, strict=True), name, len(numbers), mininterval=2):
+            for tested, wrong in tqdm(zip(numbers, wrongs, strict=True), name, len(numbers), mininterval=2):
                 if wrong:
-                    failures.append({"family": name, "number": drawn, "wrong": wrong})
-                    repeat = f"python benchmarks/campaign.py --family {name} --number {drawn} --seed {seed}"
+                    failures.append({"family": name, "number": tested, "wrong": wrong})
+                    repeat = f"python benchmarks/campaign.py --family {name} --number {tested} --seed {seed}"
                     tqdm.write(f"{wrong}\n    {repeat}")
     click.echo(f"{len(failures)} silent failures among {sum(counts.values())} curves")
     if output:

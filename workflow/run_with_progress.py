@@ -152,11 +152,11 @@ def _error_in(log):
 def summary(seconds, command, results=Path("results")):
     """Return the last lines of a run: verdicts on the paper's own claims, its time [s], and its page.
 
-    command : list of the words of the command, the last of which are targets
+    command : list of the words of the command, the last of which are targets; verdicts belong to `all` only
     """
     time_taken = f"It took {seconds:.0f} seconds" if seconds < 100 else f"It took {seconds / 60:.1f} minutes"
     if "all" not in command:
-        return [time_taken, f"Open {results / 'beyond.html'} in a browser"]
+        return [time_taken, *(f"Open {results / 'beyond.html'} in a browser" for word in command if word == "beyond")]
     table = results / "tables/claims.csv"
     claims = counted_verdicts(read_table(table), "own")
     trial = "; trial scale, on which verdicts mean nothing" * split_table(table)[0]["trial"]

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import xarray as xr
+import yaml
 
 from viscorough import LoadingCurve, reference
 from viscorough_study.comparisons.direct_integration import compare_direct
@@ -17,11 +18,10 @@ from viscorough_study.fits.fit_table import scaling_table
 from viscorough_study.fits.intervals import UNDEFINED, three_columns
 from viscorough_study.fits.zeta_laws import zeta_laws_of_pool
 from viscorough_study.run.names import SHOWN
-from viscorough_study.run.paper_data import read_paper
 from viscorough_study.verdicts.evidence import Evidence
 
 ROOT = Path(__file__).resolve().parents[2]
-NUMBERS = read_paper(ROOT / "resources/paper", "numbers")
+NUMBERS = yaml.safe_load((ROOT / "resources/paper/numbers.yaml").read_text(encoding="utf-8"))
 LIMITS = {"elements_min": 10, "stiffness_max": 0.2, "slope_max": 0.8, "slope_half_width": 0.25}
 LIMITS |= {"fraction_min": 0.95, "decades_min": 0.5}
 BOOTSTRAP = {"resamples": 50, "seed": 1}

@@ -11,7 +11,6 @@ import hashlib
 import importlib.util
 import os
 import sys
-from functools import cache
 from pathlib import Path
 
 import yaml
@@ -105,7 +104,7 @@ try:
     from viscorough_study.run.kernels import compile_once
     from viscorough_study.run.made_with import difference, origin
     from viscorough_study.run.names import SHOWN
-    from viscorough_study.run.paper_data import read_paper, read_records
+    from viscorough_study.run.paper_data import read_records
     from viscorough_study.run.scans import scans
     from viscorough_study.run.settings import changed_settings, check_settings, complete_settings, path_shown
     from viscorough_study.run.source_digest import SourceDigests
@@ -207,10 +206,7 @@ def text_digests(paths):
     return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in paths]
 
 
-@cache
-def paper(name):
-    """Return the content of a file in resources/paper; name : name of the file without suffix."""
-    return read_paper(PROJECT / "resources" / "paper", name)
+NUMBERS = read_yaml("resources/paper/numbers.yaml")  # numbers that the paper states
 
 
 # ---- inputs, params and memory of jobs, by sample and by pool

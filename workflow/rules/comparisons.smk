@@ -85,7 +85,7 @@ rule map_failures:
         mem_mb=4000,
     params:
         **config["methods"]["stress"],
-        hurst_min=paper("numbers")["agreement"]["beta_hurst_min"]["value"],
+        hurst_min=NUMBERS["agreement"]["beta_hurst_min"]["value"],
         seed=config["seed"],
         source=digest("map_failures"),
     message:

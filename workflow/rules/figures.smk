@@ -117,7 +117,7 @@ rule plot_exponent:
         mem_mb=1000,
     params:
         conventions=SHOWN,
-        hurst_range=paper("laws")["beta"]["hurst_range"],
+        hurst_min=NUMBERS["agreement"]["beta_hurst_min"]["value"],
         fine_grids=judged_rows(PROJECT),
         source=digest("plot_exponent"),
     message:
@@ -149,6 +149,7 @@ rule plot_regions:
         mem_mb=1000,
     params:
         fraction_min=config["scaling"]["fraction_min"],
+        half_width=config["scaling"]["slope_half_width"],
         source=digest("plot_regions"),
     message:
         "Figure: regions of the curves"

@@ -19,7 +19,7 @@ rule fit_scaling:
     resources:
         mem_mb=4000,
     params:
-        **config["scaling"],
+        **without("scaling", "stiffness_range"),
         seed=config["seed"],
         source=digest("fit_scaling"),
     message:
@@ -98,7 +98,7 @@ rule compare_zeta_laws:
         mem_mb=2000,
     params:
         average=SHOWN["average"],
-        hurst_mins=[0.0, paper("numbers")["agreement"]["beta_hurst_min"]["value"]],
+        hurst_mins=[0.0, NUMBERS["agreement"]["beta_hurst_min"]["value"]],
         fit=without("scaling", "resamples"),
         resamples=config["scaling"]["resamples"],
         seed=config["seed"],

@@ -59,7 +59,7 @@ rule make_page:
     resources:
         mem_mb=1000,
     params:
-        numbers=paper("numbers"),
+        numbers=NUMBERS,
         combinations=samples.combinations(config),
         fraction_min=config["scaling"]["fraction_min"],
         published=PUBLISHED_FIGURES,

@@ -26,7 +26,7 @@ rule judge_claims:
     resources:
         mem_mb=2000,
     params:
-        numbers=paper("numbers"),
+        numbers=NUMBERS,
         fine_grids=judged_rows(PROJECT),
         reduction=read_records(PROJECT / "resources/published/reduction.csv"),
         conventions=SHOWN,

@@ -10,7 +10,7 @@ from viscorough_study.run.tables import write_table
 
 
 def main(discs, lines, csv, **fit):
-    """Fit the discs of both readings, the control and the lines, and write the table of fits.
+    """Fit the discs of both readings and the lines, and write the table of fits.
 
     discs, lines : files of the pools, the datasets of all realizations of discs and of lines
     csv : file to write

@@ -29,14 +29,15 @@ class InNotebooks:
 
 # Units of length in which results are shown, the largest first: {spelling: metres}.
 METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
-# SI units of results that contain a length: {unit: power of the length}.
+# SI units of results whose metre is replaced by another unit of length: {unit: power of the length}.
 LENGTH_POWERS = {"m": 1, "m2": 2, "m s-1": 1}
 
 
 def shown_unit(largest: float, unit: str) -> tuple[str, float]:
     """Return the unit in which a quantity is shown, and its size in `unit`.
 
-    A unit of metres is replaced by the first unit of METRES that is not larger than the quantity, or by its power.
+    A unit of metres is replaced by the largest unit of METRES that is not larger than the quantity, by the last one if
+    all are larger, or by its power.
 
     largest : largest value of the quantity; unit : its unit, which is replaced if it is in LENGTH_POWERS
     """

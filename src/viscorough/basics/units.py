@@ -120,7 +120,7 @@ def length_unit(text: str) -> str:
 def with_length(unit: str, length: str) -> str:
     """Return an SI unit in which another unit of length replaces the metre, as results spell it: "um2", "(1e-6 m)2".
 
-    A unit without a length is returned unchanged, and "1" if the unit of length is "1".
+    A unit that is not in LENGTH_POWERS is returned unchanged; of the others, "1" if the unit of length is "1".
     """
     if unit not in LENGTH_POWERS:
         return unit

@@ -22,7 +22,7 @@ from viscorough.cli import files, messages, options, surface_options
 @click.option("--forces", type=options.Increasing("N"), help="Levels at exactly these F/G, or F if G is given.")
 @options.tolerance
 @click.option("--grid-error", is_flag=True, help="Estimate the error due to the map's spacing.")
-@options.until(0.9)
+@options.until("0.9, or 1 with --until-force")
 @click.option("--until-force", type=options.QuantityOption("N"), help="F/G, or F with a modulus, at which to stop.")
 @options.elastic_constants
 @options.threads
@@ -35,7 +35,7 @@ def indent(
     forces: Sequence[Quantity] | None,
     tolerance: float,
     grid_error: bool,
-    until_fraction: float,
+    until_fraction: float | None,
     until_force: Quantity | None,
     threads: int,
     progress: bool | None,

@@ -30,7 +30,7 @@ METHODS = ("events", "implicit")
 )
 @options.force_history
 @options.columns
-@options.until(1)
+@options.until("1")
 @options.progress
 def march(
     heights: surface_options.HeightsFile,

@@ -234,13 +234,13 @@ _PROGRESS = "Show progress on standard error  [default: if it is a terminal]"
 progress = click.option("--progress/--no-progress", default=None, help=_PROGRESS)
 
 
-def until(default: float) -> Callable[..., Any]:
+def until(default: str) -> Callable[..., Any]:
     """Return a decorator that adds the option --until-fraction to a command.
 
     default : default contact fraction, which only appears in the help. If the user does not give the option, the
         command receives None, and must replace None by this default
     """
-    text = f"Contact fraction at which to stop  [default: {default:g}]"
+    text = f"Contact fraction at which to stop  [default: {default}]"
     return click.option("--until-fraction", type=PositiveNumber(1), help=text)
 
 

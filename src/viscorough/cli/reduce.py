@@ -16,7 +16,7 @@ _LIMITS_OF_LINES = (
 
 @click.command(cls=options.Command, short_help="Loading curve by the method of dimensionality reduction (MDR).")
 @surface_options.heights_input("line_or_map")
-@options.until(1)
+@options.until("1")
 @click.option("--realizations", type=click.IntRange(1, 100_000), help="Lines to make of a map  [default: 1]")
 @click.option("--seed", type=click.IntRange(min=0), help="Seed of the lines that are made of a map  [default: 0]")
 @options.output("CURVE.nc")

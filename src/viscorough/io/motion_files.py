@@ -43,7 +43,7 @@ def estimate_to_content(estimate: Estimate, length_unit: str = "1") -> Content:
 
 
 def motion_to_content(motion: Motion) -> Content:
-    """Convert a Motion to the content of a NetCDF file, with one level for each time of the motion.
+    """Convert a Motion to the content of a NetCDF file, whose dimension `level` counts the times of the motion.
 
     Undetermined values (at times before the first level of the loading curve) and infinite values become nan.
     """

@@ -124,6 +124,8 @@ class LoadingCurve(InNotebooks):
                 raise ValueError(f"loading curve: {name} must be finite and not below {least}")
         if not (self.stiffness > 0).all():
             raise ValueError("loading curve: stiffness must be finite and positive")
+        if self.operator_applications < 0:
+            raise ValueError("loading curve: operator_applications must not be negative")
         if self.elements < 1 or not 0 <= self.tolerance < np.inf:
             text = f"{self.elements} elements and a tolerance of {self.tolerance:g}"
             raise ValueError(f"loading curve: {text}; at least 1 and a finite number from 0 on are needed")

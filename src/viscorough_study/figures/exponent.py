@@ -17,17 +17,17 @@ SHIFT = {"A": -0.012, "B": 0.012, "fine": 0.0}
 
 
 @style.figure
-def plot_exponent(scaling, conventions, hurst_range, fine_grids):
+def plot_exponent(scaling, conventions, hurst_min, fine_grids):
     """Draw β of MDR lines and of discs, with 95 % intervals, and β of Eq. 10, all against the Hurst exponent H.
 
     scaling : table of fitted power laws
     conventions : {column of the table: value}, which select the fits that are drawn (fits.conventions)
-    hurst_range : range of H in which the paper finds Eq. 10 accurate (resources/paper/laws.yaml)
+    hurst_min : H from which on the paper finds Eq. 10 accurate (resources/paper/numbers.yaml)
     fine_grids : published β of discs at smaller X on fine grids, rows of fits.fine_sentence.judged_rows
     """
     figure, axes = style.new_subplots(84, width=style.NARROW)
-    axes.axvspan(*hurst_range, color="0.95", linewidth=0, zorder=0)
-    axes.text(np.mean(hurst_range), 0.01, "where the paper finds\nEq. 10 accurate", color=style.GREY, ha="center")
+    axes.axvspan(hurst_min, 1, color="0.95", linewidth=0, zorder=0)
+    axes.text((hurst_min + 1) / 2, 0.01, "where the paper finds\nEq. 10 accurate", color=style.GREY, ha="center")
     lines = fits(scaling, conventions | {"rms_convention": "line"}, source="lines")
     axes.fill_between(lines["hurst"], lines["beta_low"], lines["beta_high"], color=style.PALE, linewidth=0)
     axes.plot(lines["hurst"], lines["beta"], color="black")

@@ -8,19 +8,19 @@ from viscorough_study.fits.conventions import CONTROL
 from viscorough_study.fits.power_law import in_window, inner_slopes
 from viscorough_study.verdicts.curves import SLOPES_OF_LINE, start_of_line
 
-WINDOW = 0.25  # the local slope is fitted over ± this many decades of X
 DASHED = {"linestyle": "--", "linewidth": 0.8}
 DOTTED = {"linestyle": ":", "linewidth": 1.6}
 
 
 @style.figure
-def plot_regions(discs, controls, local_slope, *, fraction_min):
+def plot_regions(discs, controls, local_slope, *, fraction_min, half_width):
     """Draw the local slope d ln(vt/h)/d ln X (a) and the share of the elements in contact (b), over X.
 
     discs : ensemble datasets of reading A, one for each Hurst exponent
     controls : ensemble datasets of discs without long waves
     local_slope : table of fits.local_slope, with the ends of region (b) of the discs and of the controls
     fraction_min : a mean is drawn if at least this fraction of the realizations has a value
+    half_width : a local slope is fitted over ± this many decades of X
 
     Thick lines: region (b). Dashed: H/(1 + H). Dotted: the control, in its region (b). Markers in (b): the X from which
     on the slope is 1 within `SLOPES_OF_LINE`, filled for the larger deviation.
@@ -31,7 +31,7 @@ def plot_regions(discs, controls, local_slope, *, fraction_min):
     for ensemble in discs:
         hurst = ensemble["hurst"].item()
         look = {"color": looks[hurst]["color"]}
-        x, slopes = _slopes(ensemble, fraction_min)
+        x, slopes = _slopes(ensemble, fraction_min, half_width)
         slope.plot(x, slopes, linewidth=0.8, **look)
         for row in local_slope.query("group == 'base' and hurst == @hurst").dropna(subset="x_low").itertuples():
             inside = in_window(x, (row.x_low, row.x_high))
@@ -40,7 +40,7 @@ def plot_regions(discs, controls, local_slope, *, fraction_min):
         _draw_contact(contact, ensemble, fraction_min, looks[hurst])
     for ensemble in controls:
         hurst = ensemble["hurst"].item()
-        x, slopes = _slopes(ensemble, fraction_min)
+        x, slopes = _slopes(ensemble, fraction_min, half_width)
         rows = local_slope[(local_slope["group"] == CONTROL) & (local_slope["hurst"] == hurst)]
         for row in rows.dropna(subset="x_low").itertuples():
             inside = in_window(x, (row.x_low, row.x_high))
@@ -66,11 +66,11 @@ def plot_regions(discs, controls, local_slope, *, fraction_min):
 FACES = ({}, {"markerfacecolor": "white"})
 
 
-def _slopes(ensemble, fraction_min):
+def _slopes(ensemble, fraction_min, half_width):
     """Return X and the local slope of the geometric mean of vt/h, where enough realizations have a value."""
     defined = ensemble["fraction_defined"].values >= fraction_min
     log_x, log_y = np.log(ensemble["x"].values[defined]), np.log(ensemble["velocity_geometric"].values[defined])
-    inner, (slopes,) = inner_slopes(log_x, log_y[None], WINDOW * np.log(10))
+    inner, (slopes,) = inner_slopes(log_x, log_y[None], half_width * np.log(10))
     return np.exp(inner), slopes
 
 

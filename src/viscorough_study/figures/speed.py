@@ -5,7 +5,7 @@ import numpy as np
 from viscorough_study.figures import style
 from viscorough_study.run.names import GRID, LAW, MDR_FITTED, MDR_PI, MEAN_X
 
-SHOWN = 0.4  # the panel of the mean shows the Hurst exponent nearest to this value
+HURST = 0.4  # the panel of the mean shows the Hurst exponent nearest to this value
 ERRORS = (0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # ticks of the axis of errors
 # Colors of the grids, from coarse to fine.
 GRIDS = (style.SKY_BLUE, style.BLUE, style.GREEN, style.PURPLE, style.ORANGE)
@@ -26,7 +26,7 @@ def plot_speed(means, other_solvers):
     figure = style.new_figure(90)
     mean, race = figure.subplots(1, 2, width_ratios=(1.25, 1))
     velocity = means[means["quantity"] == "velocity"]
-    hurst = _nearest(velocity["hurst"], SHOWN)
+    hurst = _nearest(velocity["hurst"], HURST)
     _draw_mean(mean, velocity[velocity["hurst"] == hurst], velocity[velocity["model"] == LAW])
     _draw_race(race, other_solvers)
     return figure
@@ -74,7 +74,7 @@ def _draw_mean(axes, rows, law):
 def _draw_race(axes, other_solvers):
     """Draw the time of each other solver over the time of viscorough as a bar. A solver's fastest mode counts."""
     races = [race for race in other_solvers if race["task"] == RACE]
-    hurst = _nearest([race["hurst"] for race in races], SHOWN)
+    hurst = _nearest([race["hurst"] for race in races], HURST)
     ratios = {}
     for race in races:
         if race["hurst"] == hurst:

@@ -140,7 +140,7 @@ def save_figure(figure, path):
     """Write a figure to a file; the suffix of the path (.png or .pdf) determines the format of the file.
 
     The file is written atomically and states the record of the job (run.made_with). The same figure gives the same
-    bytes. A PDF file that is older than its PNG file does not stay: see `_remove_outdated_pdf`.
+    bytes. A new PNG file removes a PDF file of an earlier job: see `_remove_outdated_pdf`.
     Raises ValueError for another suffix, and for a path that cannot be written.
     """
     if (suffix := Path(path).suffix) not in _WRITERS:

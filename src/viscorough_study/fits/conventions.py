@@ -26,7 +26,7 @@ READINGS = {
     "A": {"group": "base", "rms_convention": "disc"},
     "B": {"group": "longer_period", "rms_convention": "square"},
 }
-# Group of the discs that belong to no reading: without long waves, their curves follow no power law.
+# Group of the discs without long waves, whose curves follow no power law.
 CONTROL = "roll_off"
 FITTED = {
     "rms_convention": ("disc", "square", "ensemble"),  # for lines the value is "line"

@@ -77,19 +77,16 @@ def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_widt
     return _longest_run(mean, allowed, (0, stiffness_max), fraction_min, decades_min)
 
 
-def named_windows(mean, *, stiffness_range, fraction_min, decades_min, fixed=(), **limits):
+def named_windows(mean, *, stiffness_range=None, fraction_min, decades_min, **limits):
     """Return the windows (ranges of X) in which power laws are fitted and compared: {name: (X_low, X_high), or None}.
 
     - default: region (b), from `find_region` with the given limits.
     - lower_half, upper_half: the two halves of the default window in ln X. A difference between their β reveals
       curvature, which a single fit hides.
     - kappa: the window with stiffness_range[0] <= κ <= stiffness_range[1]. This is the same state of contact on any
-      grid, whereas the default window begins at much smaller X for lines than for discs.
-    - "X = ... to ...": windows of `fixed`, a list of (X_low, X_high). Such a window is used only if at least
-      elements_min elements are in contact at X_low, and if at least the fraction fraction_min of the realizations
-      reaches every abscissa.
+      grid, whereas the default window begins at much smaller X for lines than for discs. Without a range there is none.
 
-    A window with fewer than three abscissae is too short for a fit. It is None, or left out if it is one of `fixed`.
+    A window with fewer than three abscissae is too short for a fit. It is None.
 
     All windows are determined from the geometric mean, also for fits to the arithmetic mean.
     """
@@ -99,15 +96,11 @@ def named_windows(mean, *, stiffness_range, fraction_min, decades_min, fixed=(),
     if region := find_region(mean, **run_limits, **limits):
         middle = np.sqrt(np.prod(region))
         windows |= {"default": region, "lower_half": (region[0], middle), "upper_half": (middle, region[1])}
-    windows["kappa"] = _longest_run(mean, True, stiffness_range, **run_limits)
+    if stiffness_range:
+        windows["kappa"] = _longest_run(mean, True, stiffness_range, **run_limits)
     for name, window in windows.items():
         if window and in_window(mean["x"].values, window).sum() < FEWEST:
             windows[name] = None
-    for low, high in fixed:
-        inside = in_window(mean["x"].values, (low, high))
-        enough = mean["contact_count_median"].values[inside][:1] >= limits["elements_min"]
-        if inside.sum() >= FEWEST and enough.all() and (mean["fraction_defined"].values[inside] >= fraction_min).all():
-            windows[f"X = {low:g} to {high:g}"] = low, high
     return windows
 
 

@@ -15,7 +15,7 @@ from pathlib import Path
 
 NAME = "made_with"  # name of the record in a file
 PACKAGES = ("viscorough", "numpy", "scipy", "numba", "ducc0", "xarray", "netCDF4", "pandas", "matplotlib", "snakemake")
-# Longer settings, such as the texts of all claims, are recorded by a digest [characters of JSON].
+# Longer settings, such as the ensembles of a large batch, are recorded by a digest [characters of JSON].
 LONGEST = 4000
 
 _RECORD = {}

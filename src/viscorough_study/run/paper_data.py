@@ -1,17 +1,7 @@
-"""Read data in resources/ of the project: laws and numbers of the paper, and published tables."""
+"""Read published tables, which are in resources/ of the project."""
 
 import csv
 from pathlib import Path
-
-import yaml
-
-
-def read_paper(folder, name):
-    """Return the content of a YAML file in a folder.
-
-    name : "laws" or "numbers", the name of the file without suffix
-    """
-    return yaml.load((Path(folder) / f"{name}.yaml").read_text(encoding="utf-8"), yaml.CSafeLoader)
 
 
 def read_records(path):

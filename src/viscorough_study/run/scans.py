@@ -28,7 +28,7 @@ def scans(entries, curves):
     shared = {"pool": "measured", "realizations": 1, "batch": 1, "indentation": ends}
     result = {}
     for entry in entries:
-        # the settings that are given, which the preparation consists of, and the default values of the others
+        # Settings that are not given have their default values; steps of the preparation are then left out.
         complete = {"preparation": {}} | ScanGroup(**entry).model_dump(exclude={"preparation"}) | entry
         for pattern in entry["files"]:
             matching = map(Path, glob(pattern, recursive=True, include_hidden=True))

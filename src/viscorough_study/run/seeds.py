@@ -1,11 +1,11 @@
 """Define random streams: the keys of `numpy.random.SeedSequence` for all parts of the study.
 
 A seed consists of a root, the setting `seed`, and a spawn key. The first number of a spawn key is the number of the
-stream; every part of the study has one stream. The other numbers are properties of a realization, such as its Hurst
-exponent, grid or combination, but never its position in a list. So the random numbers of a realization do not depend on
-other realizations, on their order, or on the number of cores. The numbers of the streams are part of every published
-result: do not change them, and give a new stream a new number. The numbers 7, 9, 13 and 17 belonged to parts that are
-gone.
+stream; each part of the study has one, but for the two below. The other numbers are properties of a realization, such
+as its Hurst exponent, grid or combination, but never its position in a list. So the random numbers of a realization do
+not depend on other realizations, on their order, or on the number of cores. The numbers of the streams are part of
+every published result: do not change them, and give a new stream a new number. The numbers 7, 9, 13 and 17 belonged to
+parts that are gone.
 
 Two parts have no stream. The bootstrap of the fits uses the root without a spawn key. The spawn key of a random
 indenter in the campaign of random contacts is only its number (`random_indenter_key`). It may be the key of another

@@ -143,6 +143,7 @@ def test_impossible_curves_are_refused(change, what):
         (units(grid_error="m"), "grid_error is in 'm'"),
         (attribute("mean_grid_error", -0.1), "loading curve: mean_grid_error must be finite and not below 0"),
         (attribute("mean_area_change", -2.0), "loading curve: mean_area_change must be finite and not below -1"),
+        (attribute("operator_applications", -1), "loading curve: operator_applications must not be negative"),
     ],
 )
 def test_impossible_grid_errors_are_refused(change, what):

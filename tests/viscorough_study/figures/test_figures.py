@@ -63,7 +63,7 @@ def test_panels_show_the_numbers_of_their_rows(plot, table, panel, x, y):
 
 
 def test_exponents_and_their_intervals_are_those_of_the_fits(scaling):
-    axes = plot_exponent(scaling, SHOWN, (0.4, 1.0), FINE).axes[0]
+    axes = plot_exponent(scaling, SHOWN, 0.4, FINE).axes[0]
     shown = drawn_points(axes)
     lines = fits(scaling, SHOWN, source="lines", rms_convention="line")
     expected = [lines, pd.DataFrame(FINE)]

@@ -8,6 +8,7 @@ import re
 from glob import glob
 from pathlib import Path
 
+from viscorough.io.matrices import is_npy, is_text
 from viscorough_study.run.settings_model import ScanGroup
 
 
@@ -22,7 +23,8 @@ def scans(entries, curves):
     The keys spacing, unit, preparation, forces, young_modulus and poisson_ratio are from the entry of the setting. The
     name of a scan consists of the names of its group and its file.
 
-    Raises ValueError if a pattern matches no file, or if two scans have the same name.
+    Raises ValueError if a pattern matches no file, if two scans have the same name, and if a matrix of numbers, which
+    has no place to state them, is given without spacing or unit.
     """
     ends = {"tolerance": curves["measured_tolerance"], "until_x": curves["until_x"]}
     shared = {"pool": "measured", "realizations": 1, "batch": 1, "indentation": ends}
@@ -42,8 +44,19 @@ def scans(entries, curves):
                 if name in result and result[name]["file"] != file:
                     both = f"{result[name]['file']} and {file}"
                     raise ValueError(f"measured: {both} have the same name {name}; allowed: different names")
+                missing = [key for key in ("spacing", "unit") if not complete[key]]
+                if missing and _is_matrix(file):
+                    needed = " and ".join(f"measured.{key}" for key in missing)
+                    raise ValueError(f"measured, {entry['name']}: {file} is a matrix of numbers; {needed} must be set")
                 result[name] = shared | complete | _content(file) | {"group": entry["name"], "file": file}
     return result
+
+
+def _is_matrix(file):
+    """Return True if a file begins as a .npy file or as text."""
+    with open(file, "rb") as opened:
+        start = opened.read(4096)
+    return is_npy(start, file) or is_text(start)
 
 
 def _content(file):

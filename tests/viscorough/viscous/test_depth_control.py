@@ -27,6 +27,15 @@ def test_force_of_a_held_depth_relaxes_to_the_force_of_the_curve():
     np.testing.assert_allclose(motion.force[[2, 4]], expected, rtol=1e-12)
 
 
+def test_step_without_instantaneous_compliance_needs_an_infinite_force():
+    """After the step, the force of the sphere relaxes as the modulus of the medium."""
+    medium, times = MEDIA["springpot"], np.array([1.0, 1.1, 2.0, 30.0])
+    motion = kinetics(CURVE, depth=np.full(4, 0.3), medium=medium, times=times)
+    assert motion.force[0] == np.inf
+    expected = SPHERE.force(0.3) * medium.relaxation_modulus(times[1:] - 1)
+    np.testing.assert_allclose(motion.force[1:], expected, rtol=1e-7)
+
+
 def test_force_of_a_dashpot_has_the_stiffness_of_the_curve():
     """The stiffness of the row jumps from spring to spring, by up to 0.2 %, which the force must not show."""
     curve = curve_of_body(SPHERE, np.geomspace(1e-6, 1, 61), tolerance=1e-2)

@@ -1,8 +1,9 @@
 """Motions of the row of springs agree with direct integration, whether the contact grows or recedes."""
 
+import numpy as np
 import pytest
 
-from viscorough_study.comparisons.histories import COLUMNS, DURATIONS, FORCE_CURVE, compare_histories
+from viscorough_study.comparisons.histories import COLUMNS, DURATIONS, FORCE_CURVE, RECOVERY, compare_histories
 
 DISC = {"hursts": [0.7], "elements": 33, "seed": 1}
 
@@ -25,3 +26,11 @@ def test_contact_opens_in_unloading_and_closes_in_reloading(table):
         unloading = rows[rows["time"].between(duration, 2 * duration)]
         assert unloading.query("depth > 0 and direct == 0")["force"].tolist()[-1:] == [0.0]
         assert rows["force"].iloc[-1] > 0
+
+
+def test_recoveries_start_at_one_depth(table):
+    """The force of each duration is chosen so; otherwise their motions could not be compared."""
+    recoveries = table[table["motion"] == RECOVERY]
+    before = recoveries[recoveries["time"] == 0].groupby("duration")["depth"].max()
+    assert len(before) == len(DURATIONS)
+    np.testing.assert_allclose(before, before.iloc[0], rtol=1e-6)

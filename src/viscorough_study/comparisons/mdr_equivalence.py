@@ -70,7 +70,8 @@ def compare_ensembles(discs, lines, *, resamples, seed, average, **limits):
     average, resamples, seed : arguments of the bootstrap, see viscorough_study.fits.power_law.fit_power_law
     limits : arguments of viscorough_study.fits.power_law.named_windows
     If the discs of a Hurst exponent have no region (b), the table of λ has no rows for this exponent, and the values of
-    the summary are nan. A difference of exponents is nan if the window does not exist for the discs or for the lines.
+    the summary are nan. So is `error_whole` if not all discs reach this region. A difference of exponents is nan if the
+    window does not exist for the discs or for the lines.
     """
     bootstrap, rows = {"average": average, "resamples": resamples, "seed": seed}, {name: [] for name in TABLES}
     for hurst in sorted(set(discs) & set(lines)):
@@ -106,7 +107,9 @@ def _lambda_rows(discs, lines, window, number, **bootstrap):
         rows.append(row | three_columns("velocity_ratio", with_interval(np.exp(errors[:, i]), number)))
     drift = np.exp(2 * _rise(x[region], match.stretch_at(x[region])))
     trend = _rise(x[region], match.deviation(best, region)) / 2
-    whole = np.abs(errors[:, x[chosen] >= window[0]]).max(axis=1)
+    beyond = x[chosen] >= window[0]
+    # Not all discs may reach region (b), or the lines may end before it.
+    whole = np.abs(errors[:, beyond]).max(axis=1) if beyond.any() else np.full(len(errors), np.nan)
     summary = three_columns("drift", with_interval(drift, number))
     summary |= three_columns("error_trend", with_interval(trend, number))
     return rows, summary | three_columns("error_whole", with_interval(whole, number))

@@ -44,6 +44,11 @@ def test_equal_ensembles_give_lambda_pi():
     assert lambdas.empty
     assert np.isnan(summary["drift"]).all()
     assert exponents["difference"].notna().tolist() == [window == "same κ" for window in WINDOWS]
+    shorter = discs.assign(fraction_defined=discs["fraction_defined"] * 0.99)  # some discs end before region (b)
+    lambdas, summary, exponents = tables(shorter, discs)
+    assert lambdas.empty
+    assert summary[["drift", "error_whole"]].isna().to_numpy().tolist() == [[False, True]]
+    assert exponents["difference"].notna().all()
 
 
 def test_discs_and_lines_are_drawn_independently():

@@ -12,12 +12,14 @@ from viscorough_study.figures.direct import plot_direct
 from viscorough_study.figures.exponent import SHIFT, plot_exponent
 from viscorough_study.figures.local_exponent import plot_local_exponent
 from viscorough_study.figures.master_curve import plot_master_curve
+from viscorough_study.figures.mdr_lambda import plot_mdr_lambda
 from viscorough_study.figures.media import plot_media
 from viscorough_study.figures.reduction import plot_reduction
 from viscorough_study.figures.surfaces import plot_surfaces
 from viscorough_study.figures.validation import plot_validation
 from viscorough_study.fits import fine_grids
 from viscorough_study.fits.conventions import READINGS, fits
+from viscorough_study.run.names import WINDOWS
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -60,6 +62,18 @@ def test_panels_show_the_numbers_of_their_rows(plot, table, panel, x, y):
         shown = drawn_points(axes)
         for point in rows[[x, y]].to_numpy():
             assert np.isclose(shown, point, rtol=1e-9).all(axis=1).any(), point
+
+
+def test_panel_of_the_equivalence_holds_every_difference_of_exponents():
+    exponents = combinations(hurst=[0.1, 0.9], window=list(WINDOWS))
+    exponents = exponents.assign(difference=[-0.2, 0.1, 0.0] * 2, difference_low=-0.3, difference_high=0.2)
+    columns = [f"{name}{end}" for name in ("lambda", "velocity_ratio") for end in ("", "_low", "_high")]
+    lambdas = combinations(hurst=[0.1, 0.9], x=[1e-3, 1e-2], in_region=[1]).assign(**dict.fromkeys(columns, 1.0))
+    axes = plot_mdr_lambda(lambdas, exponents).axes[2]
+    shown = drawn_points(axes)
+    assert len(shown) > len(exponents)
+    for points, (low, high) in zip(shown.T, (axes.get_xlim(), axes.get_ylim()), strict=True):
+        assert low <= points.min() <= points.max() <= high
 
 
 def test_exponents_and_their_intervals_are_those_of_the_fits(scaling):

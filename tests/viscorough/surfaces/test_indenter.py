@@ -35,6 +35,12 @@ def test_spacings_and_units_out_of_range_are_refused():
         Indenter(np.zeros(3), (2.0, 3.0))
 
 
+@pytest.mark.parametrize(("name", "points"), [("column_positions", 4), ("row_positions", 3)])
+def test_positions_of_another_number_of_points_are_refused(name, points):
+    with refused(f"indenter {name}: shape (5,); {points} finite numbers are needed"):
+        Indenter(np.zeros((3, 4)), 1.0, **{name: np.arange(5.0)})
+
+
 def test_gaps_are_computed_in_double_precision():
     """Single precision cannot represent 2**24 - 0.001."""
     heights = np.array([[2.0**24, 0.001], [1, 1.001]]).astype(np.float32)

@@ -37,7 +37,7 @@ def test_spacings_and_units_out_of_range_are_refused():
 
 @pytest.mark.parametrize(("name", "points"), [("column_positions", 4), ("row_positions", 3)])
 def test_positions_of_another_number_of_points_are_refused(name, points):
-    with refused(f"indenter {name}: shape (5,); {points} finite numbers are needed"):
+    with refused(rf"indenter {name}: shape \(5,\); {points} finite numbers are needed"):
         Indenter(np.zeros((3, 4)), 1.0, **{name: np.arange(5.0)})
 
 

@@ -102,7 +102,7 @@ def environment(folder, project=None):
 
 # Every run is a fork of a process that has already loaded Snakemake and the imports of this project's packages. Jobs
 # are forks, too, since most of them take less time than these imports. Only the first job of each script in the test
-# session runs in a new process, which shows that the script works there.
+# session, and of the figures only the first figure, runs in a new process, which shows that the script works there.
 COPIES = multiprocessing.get_context("forkserver")
 PRELOADED = ["snakemake.cli", "snakemake.workflow", "snakemake.report.html_reporter", "smart_open", "nbformat"]
 PRELOADED += ["netCDF4", "numba", "pandas", "pydantic", "xarray", "scipy.special", "scipy.optimize"]
@@ -145,8 +145,9 @@ def _run_snakemake(arguments, variables, folder, output, server):
     one_thread = threading.Lock()
 
     def execute_script(self, path, edit=False):
+        script = Path(self.path.get_filename()).name
         try:  # the first of several processes makes the file
-            Path(os.environ[STARTED], Path(self.path.get_filename()).name).touch(exist_ok=False)
+            Path(os.environ[STARTED], re.sub("plot_.*", "plot", script)).touch(exist_ok=False)
         except FileExistsError:
             execute_in_fork(self, path)
         else:
